@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "catalog/shape_record.h"
+
+namespace catalog {
+
+using ShapeId = std::int64_t;
+
+/// What `talus catalog list` shows of a shape.
+struct ShapeSummary {
+  ShapeId id = 0;
+  std::string name;
+  double volume = 0;                  // [m3]
+  std::size_t face_count = 0;
+  std::map<std::string, double> descriptors;
+  std::vector<std::string> failed_checks;
+  struct Level {
+    int parts_asked = 0;
+    int parts = 0;
+    int vertex_cap = 0;
+    DecompositionError error;
+  };
+  std::vector<Level> levels;          // ascending parts_asked, then vertex_cap
+};
+
+/// A particle that could not be used: kept with its reason, so that a batch can list it and a curator find it.
+struct RejectedInput {
+  std::string name;
+  std::string source_file;
+  std::string source_sha256;
+  std::string reason;
+};
+
+/// One SQLite file of shapes. Every store is one transaction; SQLite stays out of this header.
+/// Throws InputError for a file that is not a Talus catalogue, is newer than this program, or stays locked.
+class ShapeCatalog {
+ public:
+  enum class Access { read_only, read_write };  // read_write makes the file if it is missing
+
+  ShapeCatalog(const std::filesystem::path& path, Access access);
+  ~ShapeCatalog();
+  ShapeCatalog(ShapeCatalog&&) noexcept;
+  ShapeCatalog& operator=(ShapeCatalog&&) noexcept;
+
+  /// Stores or replaces the shape of that name; replacing drops its levels of detail.
+  ShapeId store_shape(const ShapeRecord& shape);
+  void store_rejected(const RejectedInput& rejected);
+  /// Stores or replaces the levels with the same (parts_asked, vertex_cap), all in one transaction.
+  void store_levels(ShapeId id, const std::vector<LevelOfDetail>& levels);
+
+  std::optional<ShapeId> find(const std::string& name) const;
+  ShapeRecord shape(ShapeId id) const;
+  ShapeSummary summary(ShapeId id) const;
+  LevelOfDetail level(ShapeId id, int parts_asked, int vertex_cap) const;
+  std::vector<RejectedInput> rejected() const;
+
+  /// Ids in ascending order of name. `query` is an expression over `name`, `volume`, `face_count` and any descriptor:
+  ///   sphericity_wadell > 0.7 and name like 'rock%'
+  /// with and, or, not, parentheses, comparison operators, like, in (...). Empty selects all. An unknown word is an
+  /// InputError that names it and the nearest known one.
+  std::vector<ShapeId> select(const std::string& query) const;
+
+  int schema_version() const;
+
+ private:
+  struct Connection;
+  std::unique_ptr<Connection> connection_;
+};
+
+/// SHA-256 (FIPS 180-4) as 64 hexadecimal digits.
+std::string sha256(const void* bytes, std::size_t size);
+std::string sha256_of_file(const std::filesystem::path& path);  // throws InputError if it cannot be read
+
+}  // namespace catalog

@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: Apache-2.0
+# Interface targets every module links: language level, warnings, optional sanitizers. No global flags.
+
+add_library(project_options INTERFACE)
+target_include_directories(project_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_compile_features(project_options INTERFACE cxx_std_20)
+target_compile_definitions(project_options INTERFACE TALUS_VERSION="${PROJECT_VERSION}")
+target_compile_options(project_options INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic>
+  # CMake 3.25 drops CUDA standard 20 in silence with CUDA 13, so it is given by hand.
+  $<$<COMPILE_LANGUAGE:CUDA>:-std=c++20 --extended-lambda --expt-relaxed-constexpr>)
+if(TALUS_WARNINGS_AS_ERRORS)
+  target_compile_options(project_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
+endif()
+if(TALUS_SANITIZE)
+  target_compile_options(project_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=address,undefined -fno-omit-frame-pointer>)
+  target_link_options(project_options INTERFACE -fsanitize=address,undefined)
+endif()
