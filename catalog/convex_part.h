@@ -20,7 +20,7 @@ enum class FaceKind { outer, inner };
 /// One planar convex polygon of a part's boundary.
 struct ConvexFace {
   std::vector<int> vertices;  // polygon, counter-clockwise seen from outside, indices into ConvexPart::vertices
-  FacePlane plane;            // inner faces of the two parts that meet at a cut carry the same plane, sign reversed, bit for bit
+  FacePlane plane;  // inner faces of the two parts that meet at a cut carry the same plane, sign reversed, bit for bit
   FaceKind kind = FaceKind::outer;
 };
 

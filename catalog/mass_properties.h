@@ -14,17 +14,17 @@ using Matrix3 = std::array<std::array<double, 3>, 3>;  // [row][column]
 
 /// Rigid-body properties of a solid of density 1 kg/m3.
 struct MassProperties {
-  double volume = 0;               // [m3]
-  Point centroid{};                // [m]
-  Point principal_inertia{};       // about the centroid, ascending [m5]
+  double volume = 0;                                          // [m3]
+  Point centroid{};                                           // [m]
+  Point principal_inertia{};                                  // about the centroid, ascending [m5]
   Matrix3 principal_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // row i: unit axis of principal_inertia[i]; right-handed
 };
 
 /// Volume integrals of a solid: additive over parts, so that a partition's union follows exactly.
 struct VolumeMoments {
-  double volume = 0;     // integral of 1 [m3]
-  Point first{};         // integral of x [m4]
-  Matrix3 second{};      // integral of x x^T [m5]
+  double volume = 0;  // integral of 1 [m3]
+  Point first{};      // integral of x [m4]
+  Matrix3 second{};   // integral of x x^T [m5]
 
   VolumeMoments& operator+=(const VolumeMoments& other) {
     volume += other.volume;
@@ -47,22 +47,21 @@ inline VolumeMoments volume_moments(const TriangleMesh& mesh) {
     for (int c = 0; c < 3; ++c)
       for (int i = 0; i < 3; ++i) corner[c][i] = mesh.vertices[face[c]][i] - reference[i];
     const auto& [a, b, c] = corner;
-    const double six_volumes = a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-                               a[2] * (b[0] * c[1] - b[1] * c[0]);
+    const double six_volumes =
+        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
     moments.volume += six_volumes / 6;
     for (int i = 0; i < 3; ++i) {
       moments.first[i] += six_volumes / 24 * (a[i] + b[i] + c[i]);
       for (int j = 0; j < 3; ++j)
-        moments.second[i][j] += six_volumes / 120 * (a[i] * a[j] + b[i] * b[j] + c[i] * c[j] +
-                                                     (a[i] + b[i] + c[i]) * (a[j] + b[j] + c[j]));
+        moments.second[i][j] +=
+            six_volumes / 120 * (a[i] * a[j] + b[i] * b[j] + c[i] * c[j] + (a[i] + b[i] + c[i]) * (a[j] + b[j] + c[j]));
     }
   }
   // Shift back from the reference point to the mesh's own origin.
   const Point f = moments.first;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
-      moments.second[i][j] +=
-          reference[i] * f[j] + f[i] * reference[j] + moments.volume * reference[i] * reference[j];
+      moments.second[i][j] += reference[i] * f[j] + f[i] * reference[j] + moments.volume * reference[i] * reference[j];
   for (int i = 0; i < 3; ++i) moments.first[i] += moments.volume * reference[i];
   return moments;
 }

@@ -19,7 +19,7 @@ using ShapeId = std::int64_t;
 struct ShapeSummary {
   ShapeId id = 0;
   std::string name;
-  double volume = 0;                  // [m3]
+  double volume = 0;  // [m3]
   std::size_t face_count = 0;
   std::map<std::string, double> descriptors;
   std::vector<std::string> failed_checks;
@@ -29,7 +29,7 @@ struct ShapeSummary {
     int vertex_cap = 0;
     DecompositionError error;
   };
-  std::vector<Level> levels;          // ascending parts_asked, then vertex_cap
+  std::vector<Level> levels;  // ascending parts_asked, then vertex_cap
 };
 
 /// A particle that could not be used: kept with its reason, so that a batch can list it and a curator find it.

@@ -23,14 +23,14 @@ struct Provenance {
 struct Check {
   std::string name;
   bool passed = false;
-  double figure = 0;    // what was measured
-  std::string detail;   // one line: what was expected, unit of the figure
+  double figure = 0;   // what was measured
+  std::string detail;  // one line: what was expected, unit of the figure
 };
 
 /// A digitised particle: watertight mesh in metres, centroid at the origin, principal axes along x, y, z
 /// (ascending moment of inertia, so the longest direction lies along x).
 struct ShapeRecord {
-  std::string name;                           // unique in a catalogue
+  std::string name;  // unique in a catalogue
   TriangleMesh mesh;
   MassProperties mass_properties;
   std::map<std::string, double> descriptors;  // key names the formula: "sphericity_wadell", "flatness_kong_fonseca"
@@ -51,8 +51,8 @@ struct DecompositionError {
 
 /// One level of detail of a shape: a partition into convex parts in the frame of ShapeRecord::mesh.
 struct LevelOfDetail {
-  int parts_asked = 0;   // 1, 2, 4, 8, ...: parts.size() is at most this
-  int vertex_cap = 0;    // largest number of vertices a part may have
+  int parts_asked = 0;  // 1, 2, 4, 8, ...: parts.size() is at most this
+  int vertex_cap = 0;   // largest number of vertices a part may have
   std::vector<ConvexPart> parts;
   MassProperties mass_properties;  // of the union, in the mesh's frame (centroid need not be exactly 0)
   DecompositionError error;
