@@ -23,7 +23,8 @@ int vertex_cap_of(const catalog::ShapeSummary& shape, const FillDescription& fil
   std::set<int> caps, levels;
   for (const auto& level : shape.levels) {
     levels.insert(level.parts_asked);
-    if (level.parts_asked == asked.parts && level.vertex_cap <= dem_gpu::kMaxPartVertices) caps.insert(level.vertex_cap);
+    if (level.parts_asked == asked.parts && level.vertex_cap <= dem_gpu::kMaxPartVertices)
+      caps.insert(level.vertex_cap);
   }
   const auto listed = [](const std::set<int>& numbers) {
     std::string list;
@@ -32,28 +33,24 @@ int vertex_cap_of(const catalog::ShapeSummary& shape, const FillDescription& fil
   };
   const std::string parts = std::to_string(asked.parts);
   if (caps.empty())
-    throw catalog::InputError(fill.place + ": shape '" + shape.name + "' has no level of " + parts + " parts (it has: " +
-                              listed(levels) + "); make it with: " + catalogue_command("decompose", asked.catalogue) +
-                              " --parts " + parts);
+    throw catalog::InputError(
+        fill.place + ": shape '" + shape.name + "' has no level of " + parts + " parts (it has: " + listed(levels) +
+        "); make it with: " + catalogue_command("decompose", asked.catalogue) + " --parts " + parts);
   if (asked.vertex_cap && !caps.contains(*asked.vertex_cap))
-    throw catalog::InputError(fill.place + ": shape '" + shape.name + "' has " + parts + " parts with at most " +
-                              listed(caps) + " vertices, not " + std::to_string(*asked.vertex_cap) +
-                              "; take one of these, or make it with: " +
-                              catalogue_command("decompose", asked.catalogue) + " --parts " + parts + " --vertices " +
-                              std::to_string(*asked.vertex_cap));
+    throw catalog::InputError(
+        fill.place + ": shape '" + shape.name + "' has " + parts + " parts with at most " + listed(caps) +
+        " vertices, not " + std::to_string(*asked.vertex_cap) +
+        "; take one of these, or make it with: " + catalogue_command("decompose", asked.catalogue) + " --parts " +
+        parts + " --vertices " + std::to_string(*asked.vertex_cap));
   if (asked.vertex_cap) return *asked.vertex_cap;
-  return *std::min_element(caps.begin(), caps.end(), [](int a, int b) {
-    return std::abs(a - kUsualVertexCap) < std::abs(b - kUsualVertexCap);
-  });
+  return *std::min_element(caps.begin(), caps.end(),
+                           [](int a, int b) { return std::abs(a - kUsualVertexCap) < std::abs(b - kUsualVertexCap); });
 }
 
-double descriptor(const catalog::ShapeSummary& shape, const std::string& key, const FillDescription& fill,
-                  const CatalogueShapes& asked) {
+/// 0 if the catalogue has none.
+double descriptor(const catalog::ShapeSummary& shape, const std::string& key) {
   const auto found = shape.descriptors.find(key);
-  if (found == shape.descriptors.end() || !(found->second > 0))
-    throw catalog::InputError(fill.place + ": shape '" + shape.name + "' in " + asked.catalogue.string() +
-                              " has no descriptor " + key + ", which its size needs; digitize it again");
-  return found->second;
+  return found == shape.descriptors.end() ? 0 : found->second;
 }
 
 double bounding_radius(const dem_gpu::Shape& shape) {
@@ -142,8 +139,8 @@ std::vector<ShapeCollector::Collected> ShapeCollector::selected(const FillDescri
                                 {.name = summary.name,
                                  .symmetric_difference = level.error.symmetric_difference,
                                  .volume_error = level.error.volume_error});
-      collected.sieve_size = descriptor(summary, "axis_intermediate_obb", fill, shapes);
-      collected.largest_feret = descriptor(summary, "feret_max", fill, shapes);
+      collected.sieve_size = descriptor(summary, "axis_intermediate_obb");
+      collected.largest_feret = descriptor(summary, "feret_max");
       collected_[key] = collected;
     }
     all.push_back(collected_[key]);
@@ -167,6 +164,10 @@ std::vector<FillShape> ShapeCollector::shapes_of(const FillDescription& fill) {
     shapes.back().size = fill.definition == SizeDefinition::sieve               ? one.sieve_size
                          : fill.definition == SizeDefinition::volume_equivalent ? equivalent
                                                                                 : one.largest_feret;
+    if (!(shapes.back().size > 0))
+      throw catalog::InputError(
+          fill.place + ": shape '" + assembled_.scene.shapes[static_cast<std::size_t>(one.shape.index)].name +
+          "' has no descriptor for its " + name_of(fill.definition) + " size in the catalogue; digitize it again");
   }
   return shapes;
 }

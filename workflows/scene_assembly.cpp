@@ -80,8 +80,8 @@ void add_bodies(const SceneDescription& description, AssembledScene& assembled, 
     report.first_body = static_cast<int>(scene.bodies.size());
     std::vector<double> sizes, masses;
     for (const Body& body : sampled_bodies(fill, shapes, density)) {
-      const auto shape = std::find_if(shapes.begin(), shapes.end(),
-                                      [&](const FillShape& one) { return one.index == body.shape; });
+      const auto shape =
+          std::find_if(shapes.begin(), shapes.end(), [&](const FillShape& one) { return one.index == body.shape; });
       sizes.push_back(shape->size * body.scale);
       masses.push_back(mass_of(scene, body));
       report.mass += masses.back();
@@ -165,8 +165,9 @@ void set_stiffness(const SceneDescription& description, Scene& scene) {
   double polyhedra = choice.polyhedra.value_or(0);
   if (has_polyhedra && !choice.polyhedra) {
     if (!choice.largest_overlap)
-      throw catalog::InputError(file + ": contact_law: stiffness of polyhedra is missing; state stiffness = \"2e7 N/m3\""
-                                       " or largest_overlap with at_speed");
+      throw catalog::InputError(file +
+                                ": contact_law: stiffness of polyhedra is missing; state stiffness = \"2e7 N/m3\""
+                                " or largest_overlap with at_speed");
     polyhedra = dem_gpu::stiffness_for_overlap(scene, choice.at_speed, *choice.largest_overlap);
     // Flat on flat the depth potential gives 2 k A d, the volume law k A d.
     if (std::holds_alternative<dem_gpu::OverlapVolume>(scene.polyhedral_law)) polyhedra *= 2;
@@ -175,8 +176,9 @@ void set_stiffness(const SceneDescription& description, Scene& scene) {
 
   if (auto* spring = std::get_if<dem_gpu::LinearSpring>(&scene.sphere_law)) {
     if (has_spheres && !choice.spheres && !choice.largest_overlap)
-      throw catalog::InputError(file + ": contact_law: stiffness of spheres is missing; state sphere_stiffness = "
-                                       "\"1e5 N/m\" or largest_overlap with at_speed");
+      throw catalog::InputError(file +
+                                ": contact_law: stiffness of spheres is missing; state sphere_stiffness = "
+                                "\"1e5 N/m\" or largest_overlap with at_speed");
     spring->stiffness = choice.spheres.value_or(
         choice.largest_overlap ? sphere_stiffness(scene, choice.at_speed, *choice.largest_overlap) : 0);
   }

@@ -53,9 +53,10 @@ void read_materials(TomlTable& file, Scene& scene) {
 }
 
 dem_gpu::ContactProperties read_contact(TomlTable& table, const dem_gpu::ContactProperties* defaults) {
+  const Bounds restitution{0.01, 1, false, "from 0.01 to 1"};
   dem_gpu::ContactProperties contact;
-  contact.restitution = defaults ? table.quantity("restitution", Dimension::ratio, kShare, defaults->restitution)
-                                 : table.quantity("restitution", Dimension::ratio, kShare);
+  contact.restitution = defaults ? table.quantity("restitution", Dimension::ratio, restitution, defaults->restitution)
+                                 : table.quantity("restitution", Dimension::ratio, restitution);
   contact.friction_coefficient =
       defaults ? table.quantity("friction", Dimension::ratio, kNotNegative, defaults->friction_coefficient)
                : table.quantity("friction", Dimension::ratio, kNotNegative);

@@ -38,7 +38,7 @@ struct FillDescription {
   int material = 0;                                             // index into Scene::materials
   std::variant<std::int64_t, double> amount = std::int64_t{0};  // number of bodies, or mass [kg]
   std::optional<SizeDistribution> size;                         // nullopt: shapes as they are
-  SizeDefinition definition = SizeDefinition::sieve;
+  SizeDefinition definition = SizeDefinition::volume_equivalent;
   FillRegion region;
   FillLayout layout;
   Point velocity{};  // at time 0 [m/s]
