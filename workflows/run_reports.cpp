@@ -18,6 +18,16 @@ using Json = nlohmann::ordered_json;
 // Energy out of balance by more than this share of what was put in is worth a warning.
 constexpr double kLargestImbalance = 0.02;
 
+std::string formatted(const char* format, ...) __attribute__((format(printf, 1, 2)));
+std::string formatted(const char* format, ...) {
+  char text[256];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return text;
+}
+
 Json json_of(const Vec3& v) { return {v.x, v.y, v.z}; }
 Json json_of(const Point& p) { return {p[0], p[1], p[2]}; }
 
@@ -150,7 +160,7 @@ bool has_size_range(const FillDescription& fill) {
 Json characteristic_sizes(const RealisedSizes& sample, SizeBasis basis) {
   Json json;
   for (const int percent : {10, 50, 80, 90})
-    json["d" + std::to_string(percent)] = size_at(sample, percent / 100.0, basis);
+    json[formatted("d%d", percent)] = size_at(sample, percent / 100.0, basis);
   return json;
 }
 
@@ -169,16 +179,6 @@ Json size_distribution(const FillReport& report, const FillDescription& fill) {
   for (const SizeBasis one : {SizeBasis::mass, SizeBasis::number})
     json["by_" + std::string(name_of(one))] = characteristic_sizes(report.realised, one);
   return json;
-}
-
-std::string formatted(const char* format, ...) __attribute__((format(printf, 1, 2)));
-std::string formatted(const char* format, ...) {
-  char text[256];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  return text;
 }
 
 double polyhedral_stiffness(const Scene& scene) {

@@ -33,7 +33,7 @@ std::string row(const std::vector<std::string>& cells) {
 }
 
 /// A name as a CSV cell (RFC 4180).
-std::string quoted(const std::string& name) {
+std::string name_cell(const std::string& name) {
   if (name.find_first_of(",\"\n\r") == std::string::npos) return name;
   std::string cell = "\"";
   for (const char letter : name) cell += letter == '"' ? std::string("\"\"") : std::string(1, letter);
@@ -86,7 +86,7 @@ void RunSeries::append(dem_gpu::Simulation& simulation, const dem_gpu::EnergyLed
   for (const auto& loss : ledger.dissipation) {
     normal += loss.normal;
     shear += loss.shear;
-    if (has_ledger_) ledger_.append(row({time, quoted(loss.contact_class), cell(loss.normal), cell(loss.shear)}));
+    if (has_ledger_) ledger_.append(row({time, name_cell(loss.contact_class), cell(loss.normal), cell(loss.shear)}));
   }
   time_series_.append(row(
       {time, std::to_string(simulation.step()), std::to_string(bulk.active_bodies), cell(bulk.active_mass),
@@ -98,7 +98,7 @@ void RunSeries::append(dem_gpu::Simulation& simulation, const dem_gpu::EnergyLed
   for (std::size_t wall = 0; wall < loads.size(); ++wall) {
     const dem_gpu::WallLoad& load = loads[wall];
     walls_.append(
-        row({time, quoted(wall_names_[wall]), cell(load.force.x), cell(load.force.y), cell(load.force.z),
+        row({time, name_cell(wall_names_[wall]), cell(load.force.x), cell(load.force.y), cell(load.force.z),
              cell(load.torque.x), cell(load.torque.y), cell(load.torque.z), cell(load.power), cell(load.work)}));
   }
   time_series_.flush();

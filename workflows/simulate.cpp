@@ -12,6 +12,7 @@
 #include "workflows/run_reports.h"
 #include "workflows/stage_tool.h"
 #include "workflows/thread_count.h"
+#include "workflows/units.h"
 
 namespace workflows {
 namespace {
@@ -137,9 +138,8 @@ int simulate(const SimulateOptions& options) {
   const AssembledScene assembled = assemble_scene(description);
   dem_gpu::check(assembled.scene);
   run_schedule(description, assembled.scene);
-  const fs::path scene_folder = fs::absolute(options.scene.parent_path());
-  const nlohmann::ordered_json resolved =
-      resolved_scene(assembled, description, (scene_folder / "").lexically_normal().string());
+  const fs::path scene_folder = fs::absolute(description.file).lexically_normal().parent_path();
+  const nlohmann::ordered_json resolved = resolved_scene(assembled, description, scene_folder.string());
   if (options.dry_run) {
     print_dry_run(assembled, description, resolved, options.json);
     return kDone;
