@@ -159,8 +159,7 @@ bool has_size_range(const FillDescription& fill) {
 /// D10 ... D90 on one basis [m].
 Json characteristic_sizes(const RealisedSizes& sample, SizeBasis basis) {
   Json json;
-  for (const int percent : {10, 50, 80, 90})
-    json[formatted("d%d", percent)] = size_at(sample, percent / 100.0, basis);
+  for (const int percent : {10, 50, 80, 90}) json[formatted("d%d", percent)] = size_at(sample, percent / 100.0, basis);
   return json;
 }
 

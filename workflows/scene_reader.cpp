@@ -167,6 +167,8 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
   description.text = std::move(text);
   Scene& scene = description.scene;
   TomlTable table(root, file.string(), "");
+  table.expect_only({"name", "gravity", "run", "material", "contact", "contact_law", "ledger", "motion", "wall",
+                     "lifters", "outflow", "fill"});
   scene.name = table.text("name", file.stem().string());
   if (scene.name.empty() || scene.name.find('/') != std::string::npos)
     table.refuse("name", "name must not be empty or hold '/': the run's folder is named for it");
@@ -183,7 +185,6 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
   refuse_equal_wall_names(table, scene);
   read_outflow(table, scene);
   description.fills = read_fills(table, scene, base_folder);
-  table.finish();
   return description;
 }
 

@@ -215,6 +215,11 @@ const toml::array& TomlTable::array(std::string_view key) {
   refuse(key, std::string(key) + " is " + kind_of(node) + "; expected an array [...]");
 }
 
+void TomlTable::expect_only(const std::vector<std::string>& keys) {
+  known_.insert(keys.begin(), keys.end());
+  finish();
+}
+
 void TomlTable::finish() const {
   const std::vector<std::string> known(known_.begin(), known_.end());
   for (const auto& [key, node] : *table_)

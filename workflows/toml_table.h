@@ -66,6 +66,8 @@ class TomlTable {
   /// The last part of a named table's key.
   const std::string& name() const { return name_; }
 
+  /// Refuses any other key at once: where a slip in an optional key would show up as something else.
+  void expect_only(const std::vector<std::string>& keys);
   /// Refuses keys that nobody asked for, naming the nearest known one.
   void finish() const;
 
