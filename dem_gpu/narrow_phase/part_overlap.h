@@ -6,9 +6,9 @@
 
 namespace dem_gpu {
 
-/// Visits each piece of `surface`'s faces that lies inside `solid`, both convex. `vertices` are the surface's, already in
-/// the solid's frame, with their outcodes against the solid's planes. Each clipped face is an independent polygon; no
-/// topology is built. visitor(polygon in the solid's frame, face index). Returns false if a polygon was truncated.
+/// Visits each piece of `surface`'s faces that lies inside `solid`, both convex. `vertices` are the surface's, already
+/// in the solid's frame, with their outcodes against the solid's planes. Each clipped face is an independent polygon;
+/// no topology is built. visitor(polygon in the solid's frame, face index). Returns false if a polygon was truncated.
 template <class Visitor>
 TALUS_HD bool visit_surface_inside(const PartView& surface, int face_count, const PartView& solid, const Vec3* vertices,
                                    const FaceMask* outcode, Visitor&& visitor) {

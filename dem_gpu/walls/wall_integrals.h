@@ -9,10 +9,10 @@
 namespace dem_gpu {
 
 /// Integrals of a wall's depth over the part of a body's outer surface inside the wall, world frame about `centre`:
-/// force direction = - integral of depth n dA. The wall's field alone carries the contact (U = 2 k integral of the wall's
-/// depth over the overlap), so a flat face meets a wall as it meets another flat face. Planes are exact; on curved walls
-/// each face is cut into triangles about its centre on which the depth is taken as linear (error of second order in
-/// face size over wall radius).
+/// force direction = - integral of depth n dA. The wall's field alone carries the contact (U = 2 k integral of the
+/// wall's depth over the overlap), so a flat face meets a wall as it meets another flat face. Planes are exact; on
+/// curved walls each face is cut into triangles about its centre on which the depth is taken as linear (error of second
+/// order in face size over wall radius).
 struct WallIntegrals {
   Vec3 force;           // [m3]
   Vec3 moment;          // [m4]
