@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dem_gpu/contacts/elastic_contact.h"
+#include "dem_gpu/core/scratch_array.h"
 #include "dem_gpu/narrow_phase/part_frame.h"
 #include "dem_gpu/scene.h"
 #include "dem_gpu/walls/wall_surface.h"
@@ -94,7 +95,7 @@ TALUS_HD inline void integrate_part_in_wall(const PartView& part, const Pose& po
     const Vec3 relative = pose.scale * (pose.rotation * x);
     return WallIntegrals::Sample{relative, wall_field(wall, pose.position + relative)};
   };
-  WallIntegrals::Sample vertices[kMaxPartVertices];
+  ScratchArray<WallIntegrals::Sample, kMaxPartVertices> vertices;
   bool touches = false;
   for (int v = 0; v < part.range.vertex_count; ++v) {
     vertices[v] = sample(part.vertices[v]);
