@@ -70,13 +70,14 @@ inline VolumeMoments volume_moments(const TriangleMesh& mesh) {
 /// (Golub & Van Loan 2013, section 8.5). The sign of each axis is fixed: its largest component is positive.
 inline void symmetric_eigen(Matrix3 matrix, Point& values, Matrix3& axes) {
   Matrix3 vectors{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // columns
+  const double scale = std::abs(matrix[0][0]) + std::abs(matrix[1][1]) + std::abs(matrix[2][2]);
   for (int sweep = 0; sweep < 50; ++sweep) {
-    const double off_diagonal = std::abs(matrix[0][1]) + std::abs(matrix[0][2]) + std::abs(matrix[1][2]);
-    const double diagonal = std::abs(matrix[0][0]) + std::abs(matrix[1][1]) + std::abs(matrix[2][2]);
-    if (off_diagonal <= 1e-16 * diagonal) break;
+    const double off_diagonal = std::max({std::abs(matrix[0][1]), std::abs(matrix[0][2]), std::abs(matrix[1][2])});
+    if (off_diagonal <= 1e-14 * scale) break;
     for (int p = 0; p < 2; ++p)
       for (int q = p + 1; q < 3; ++q) {
-        if (matrix[p][q] == 0) continue;
+        // Of equal moments any axes are principal: rounding must not turn those given.
+        if (std::abs(matrix[p][q]) <= 1e-14 * scale) continue;
         const double theta = (matrix[q][q] - matrix[p][p]) / (2 * matrix[p][q]);
         const double t = (theta >= 0 ? 1 : -1) / (std::abs(theta) + std::sqrt(theta * theta + 1));
         const double c = 1 / std::sqrt(t * t + 1), s = t * c;

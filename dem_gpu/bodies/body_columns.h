@@ -20,13 +20,13 @@ struct BodyConstants {
 
 /// Moving state of the bodies, one entry each (n_bodies).
 struct BodyColumns {
-  DeviceVector<char> active;            // 0 once removed
-  DeviceVector<Vec3> position;          // centre of mass, world frame [m]
-  DeviceVector<Quaternion> orientation; // unit, body to world
-  DeviceVector<Vec3> velocity;          // world frame [m/s]
-  DeviceVector<Vec3> angular_velocity;  // body frame, principal axes [rad/s]
-  DeviceVector<Vec3> force;             // world frame, gravity included [N]
-  DeviceVector<Vec3> torque;            // about the centre, world frame [N m]
+  DeviceVector<char> active;             // 0 once removed
+  DeviceVector<Vec3> position;           // centre of mass, world frame [m]
+  DeviceVector<Quaternion> orientation;  // unit, body to world
+  DeviceVector<Vec3> velocity;           // world frame [m/s]
+  DeviceVector<Vec3> angular_velocity;   // body frame, principal axes [rad/s]
+  DeviceVector<Vec3> force;              // world frame, gravity included [N]
+  DeviceVector<Vec3> torque;             // about the centre, world frame [N m]
   // Velocities that contacts see, world frame: predicted for the end of the step (laws), and mean over the step (work).
   DeviceVector<Vec3> predicted_velocity;          // [m/s]
   DeviceVector<Vec3> predicted_angular_velocity;  // [rad/s]

@@ -53,9 +53,9 @@ void resize_columns(ContactColumns& columns, int count, const ContactFeatures& f
   for (DeviceVector<Real>* column : {&columns.elastic_work, &columns.tangential_energy, &columns.loss_normal,
                                      &columns.loss_shear, &columns.wall_work})
     reset(*column, ledger);
-  for (DeviceVector<Vec3>* column : {&columns.last_elastic_force, &columns.last_elastic_torque_a,
-                                     &columns.last_elastic_torque_b, &columns.last_damping_force,
-                                     &columns.last_friction_force})
+  for (DeviceVector<Vec3>* column :
+       {&columns.last_elastic_force, &columns.last_elastic_torque_a, &columns.last_elastic_torque_b,
+        &columns.last_damping_force, &columns.last_friction_force})
     reset(*column, ledger);
   reset(columns.wall_impulse, features.has_walls ? count : 0);
   reset(columns.wall_angular_impulse, features.has_walls ? count : 0);

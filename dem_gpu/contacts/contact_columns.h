@@ -34,27 +34,27 @@ TALUS_HD inline bool is_wall_kind(ContactKind kind) { return kind >= ContactKind
 /// Candidate pairs and what they carry from step to step, one entry each (n_contacts). Optional columns have length 0
 /// where the scene has no use for them.
 struct ContactColumns {
-  DeviceVector<ContactKey> key;     // ascending
-  DeviceVector<Vec3> force;         // on a, world frame [N]
-  DeviceVector<Vec3> torque_a;      // on a about a's centre, world frame [N m]
-  DeviceVector<Vec3> torque_b;      // on b about b's centre (a wall's rotation centre), world frame [N m]
-  DeviceVector<Vec3> point;         // contact point, world frame [m]
-  DeviceVector<Real> depth;         // largest depth, 0 if not touching [m]
-  DeviceVector<Real> peak_overlap;  // since last read: depth / diameter of the smaller body [-]
-  DeviceVector<Real> peak_rate;     // since last read: stiffness / effective mass [1/s2]
-  DeviceVector<char> is_truncated;  // a clipped polygon did not fit
-  DeviceVector<int> cache_begin;    // first entry in separating, polyhedron pairs
+  DeviceVector<ContactKey> key;              // ascending
+  DeviceVector<Vec3> force;                  // on a, world frame [N]
+  DeviceVector<Vec3> torque_a;               // on a about a's centre, world frame [N m]
+  DeviceVector<Vec3> torque_b;               // on b about b's centre (a wall's rotation centre), world frame [N m]
+  DeviceVector<Vec3> point;                  // contact point, world frame [m]
+  DeviceVector<Real> depth;                  // largest depth, 0 if not touching [m]
+  DeviceVector<Real> peak_overlap;           // since last read: depth / diameter of the smaller body [-]
+  DeviceVector<Real> peak_rate;              // since last read: stiffness / effective mass [1/s2]
+  DeviceVector<char> is_truncated;           // a clipped polygon did not fit
+  DeviceVector<int> cache_begin;             // first entry in separating, polyhedron pairs
   DeviceVector<SeparatingPlane> separating;  // one per pair of parts, all candidate pairs end to end
 
   // With friction.
   DeviceVector<Vec3> tangential_displacement;  // of the spring, world frame [m]
 
   // With a ledger.
-  DeviceVector<Real> elastic_work;       // recoverable, done against the elastic normal force since touch [J]
-  DeviceVector<Real> tangential_energy;  // in the tangential spring [J]
-  DeviceVector<Real> loss_normal;        // dissipated since last read [J]
-  DeviceVector<Real> loss_shear;         // [J]
-  DeviceVector<Real> wall_work;          // done by the wall on the body since last read [J]
+  DeviceVector<Real> elastic_work;           // recoverable, done against the elastic normal force since touch [J]
+  DeviceVector<Real> tangential_energy;      // in the tangential spring [J]
+  DeviceVector<Real> loss_normal;            // dissipated since last read [J]
+  DeviceVector<Real> loss_shear;             // [J]
+  DeviceVector<Real> wall_work;              // done by the wall on the body since last read [J]
   DeviceVector<Vec3> last_elastic_force;     // on a, at the end of the last step [N]
   DeviceVector<Vec3> last_elastic_torque_a;  // [N m]
   DeviceVector<Vec3> last_elastic_torque_b;  // [N m]

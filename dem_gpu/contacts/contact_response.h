@@ -24,7 +24,9 @@ struct ContactSide {
   TALUS_HD Vec3 predicted_velocity_at(const Vec3& x) const {
     return predicted_velocity + cross(predicted_angular_velocity, x - centre);
   }
-  TALUS_HD Vec3 mean_velocity_at(const Vec3& x) const { return mean_velocity + cross(mean_angular_velocity, x - centre); }
+  TALUS_HD Vec3 mean_velocity_at(const Vec3& x) const {
+    return mean_velocity + cross(mean_angular_velocity, x - centre);
+  }
   /// 1 / mass that an impulse along n at x meets [1/kg].
   TALUS_HD Real inverse_effective_mass(const Vec3& x, const Vec3& n) const {
     const Vec3 arm = transpose_times(rotation, cross(x - centre, n));
@@ -70,8 +72,8 @@ struct WorkRecord {
 };
 
 struct ContactForces {
-  Vec3 damping;   // on a [N]
-  Vec3 friction;  // on a [N]
+  Vec3 damping;                // on a [N]
+  Vec3 friction;               // on a [N]
   Real tangential_energy = 0;  // [J]
 };
 
@@ -91,7 +93,8 @@ struct TangentialSpring {
   Real stiffness;     // [N/m]
   Real damping;       // [N s/m]
 
-  TALUS_HD Vec3 force(const Vec3& normal, const Vec3& mean_slip, const Vec3& predicted_slip, Real time_step, Real limit) {
+  TALUS_HD Vec3 force(const Vec3& normal, const Vec3& mean_slip, const Vec3& predicted_slip, Real time_step,
+                      Real limit) {
     const Real length = norm(displacement);
     displacement -= dot(displacement, normal) * normal;
     const Real turned = norm(displacement);
@@ -117,15 +120,17 @@ struct StepWork {
   Real by_wall = 0;                             // done by side b's own motion on a [J]
 };
 
-TALUS_HD inline StepWork step_work(const ContactView& contacts, int c, const ElasticContact& elastic, const Vec3& torque_b,
-                                   const ContactForces& forces, const ContactSide& a, const ContactSide& b, Real time_step) {
+TALUS_HD inline StepWork step_work(const ContactView& contacts, int c, const ElasticContact& elastic,
+                                   const Vec3& torque_b, const ContactForces& forces, const ContactSide& a,
+                                   const ContactSide& b, Real time_step) {
   const Real half = time_step / 2;
   StepWork work;
   const Vec3 force = contacts.last_elastic_force[c] + elastic.force;
-  const Real on_b = half * (dot(contacts.last_elastic_torque_b[c] + torque_b, b.mean_angular_velocity) -
-                            dot(force, b.mean_velocity));
+  const Real on_b =
+      half * (dot(contacts.last_elastic_torque_b[c] + torque_b, b.mean_angular_velocity) - dot(force, b.mean_velocity));
   work.elastic = half * (dot(force, a.mean_velocity) +
-                         dot(contacts.last_elastic_torque_a[c] + elastic.torque_a, a.mean_angular_velocity)) + on_b;
+                         dot(contacts.last_elastic_torque_a[c] + elastic.torque_a, a.mean_angular_velocity)) +
+                 on_b;
   const Vec3 velocity_a = a.mean_velocity_at(elastic.point), velocity_b = b.mean_velocity_at(elastic.point);
   const Vec3 damping = contacts.last_damping_force[c] + forces.damping;
   const Vec3 friction = contacts.last_friction_force[c] + forces.friction;
@@ -135,8 +140,8 @@ TALUS_HD inline StepWork step_work(const ContactView& contacts, int c, const Ela
   return work;
 }
 
-/// Adds a step's work to the ledger columns. The elastic account is closed when the contact ends: whatever is left in it
-/// then was not recovered, and shows as imbalance.
+/// Adds a step's work to the ledger columns. The elastic account is closed when the contact ends: whatever is left in
+/// it then was not recovered, and shows as imbalance.
 TALUS_HD inline void record_work(const ContactView& contacts, int c, const StepWork& work, Real tangential_energy,
                                  bool is_touching, bool is_wall) {
   contacts.elastic_work[c] = is_touching ? contacts.elastic_work[c] - work.elastic : 0;
@@ -148,7 +153,8 @@ TALUS_HD inline void record_work(const ContactView& contacts, int c, const StepW
 
 /// No force this step; the history ends.
 template <class Friction, class Record>
-TALUS_HD void end_contact(const ContactView& contacts, int c, const ContactSide& a, const ContactSide& b, Real time_step) {
+TALUS_HD void end_contact(const ContactView& contacts, int c, const ContactSide& a, const ContactSide& b,
+                          Real time_step) {
   if (contacts.depth[c] == 0) return;
   if constexpr (Record::kEnabled) {
     ElasticContact none;
@@ -177,7 +183,8 @@ TALUS_HD void respond(const ContactView& contacts, int c, const ElasticContact& 
   forces.damping = -damping * elastic.normal;
   if constexpr (Friction::kEnabled) {
     const Vec3 mean_slip = a.mean_velocity_at(elastic.point) - b.mean_velocity_at(elastic.point);
-    TangentialSpring spring{contacts.tangential_displacement[c], friction.tangential_stiffness_ratio * elastic.stiffness, 0};
+    TangentialSpring spring{contacts.tangential_displacement[c],
+                            friction.tangential_stiffness_ratio * elastic.stiffness, 0};
     spring.damping = 2 * pair.damping.ratio[0] * std::sqrt(effective_mass * spring.stiffness);
     const Real limit = pair.friction_coefficient * (norm(elastic.force) + damping);
     forces.friction = spring.force(elastic.normal, mean_slip - dot(mean_slip, elastic.normal) * elastic.normal,

@@ -3,6 +3,7 @@
 
 // The only place that names an execution policy. Every function gives the same result whatever the number of threads.
 
+#include <thrust/binary_search.h>
 #include <thrust/execution_policy.h>
 #include <thrust/extrema.h>
 #include <thrust/fill.h>
@@ -55,6 +56,13 @@ template <class T>
 T min_of(const DeviceVector<T>& column, T empty_value) {
   if (column.empty()) return empty_value;
   return *thrust::min_element(thrust::device, column.begin(), column.end());
+}
+
+/// Number of entries of an ascending column below `value`.
+template <class T>
+int count_below(const DeviceVector<T>& ascending, const T& value) {
+  return static_cast<int>(thrust::lower_bound(thrust::device, ascending.begin(), ascending.end(), value) -
+                          ascending.begin());
 }
 
 /// First index in the ascending array whose entry is not less than `value`.

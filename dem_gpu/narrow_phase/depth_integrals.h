@@ -10,14 +10,15 @@ namespace dem_gpu {
 
 /// Integrals of a depth field over one polygon, in the polygon's frame.
 struct PolygonDepth {
-  Real depth = 0;         // integral of depth dA [m3]
-  Vec3 depth_moment;      // integral of x depth dA [m4]
-  Real area = 0;          // [m2]
-  Real largest = 0;       // largest depth at a corner [m]
+  Real depth = 0;     // integral of depth dA [m3]
+  Vec3 depth_moment;  // integral of x depth dA [m4]
+  Real area = 0;      // [m2]
+  Real largest = 0;   // largest depth at a corner [m]
 };
 
 /// Adds a polygon on which the depth is linear: closed form over the triangles of its fan.
-TALUS_HD inline void add_linear_depth(const Polygon& polygon, const HalfSpace& plane, const Vec3& normal, PolygonDepth& sum) {
+TALUS_HD inline void add_linear_depth(const Polygon& polygon, const HalfSpace& plane, const Vec3& normal,
+                                      PolygonDepth& sum) {
   const Vec3 a = polygon.corner[0];
   const Real depth_a = depth_below(plane, a);
   Vec3 b = polygon.corner[1];
@@ -30,8 +31,7 @@ TALUS_HD inline void add_linear_depth(const Polygon& polygon, const HalfSpace& p
     const Real total = depth_a + depth_b + depth_c;
     sum.area += area;
     sum.depth += area * total / 3;
-    sum.depth_moment +=
-        (area / 12) * (depth_a * a + depth_b * b + depth_c * corner + total * (a + b + corner));
+    sum.depth_moment += (area / 12) * (depth_a * a + depth_b * b + depth_c * corner + total * (a + b + corner));
     sum.largest = std::max(sum.largest, depth_c);
     b = corner;
     depth_b = depth_c;
@@ -112,15 +112,16 @@ TALUS_HD inline PolygonDepth integrate_depth(const Polygon& polygon, const HalfS
 struct DepthIntegrals {
   static constexpr bool kNeedsInnerFaces = false;
 
-  Vec3 force;         // [m3]
-  Vec3 moment;        // [m4]
-  Real weight = 0;    // integral of depth dA over both surfaces [m3]
-  Vec3 weighted_point;  // integral of x depth dA [m4]
-  Vec3 area_a;        // vector area of a's surface in b [m2]
-  Vec3 area_b;        // vector area of b's surface in a [m2]
+  Vec3 force;              // [m3]
+  Vec3 moment;             // [m4]
+  Real weight = 0;         // integral of depth dA over both surfaces [m3]
+  Vec3 weighted_point;     // integral of x depth dA [m4]
+  Vec3 area_a;             // vector area of a's surface in b [m2]
+  Vec3 area_b;             // vector area of b's surface in a [m2]
   Real largest_depth = 0;  // [m]
 
-  TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, const PartView& a, const FrameChange& b_to_a) {
+  TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, const PartView& a,
+                              const FrameChange& b_to_a) {
     const Vec3 normal = b_to_a.direction(plane_b.normal);
     const PolygonDepth sum = integrate_depth(polygon, a.depth_planes, a.range.depth_plane_count, normal);
     add(sum.depth, sum.depth_moment, normal);
@@ -128,7 +129,8 @@ struct DepthIntegrals {
     largest_depth = std::max(largest_depth, sum.largest);
   }
 
-  TALUS_HD void add_surface_a(const Polygon& polygon, const HalfSpace& plane_a, const PartView& b, const FrameChange& b_to_a) {
+  TALUS_HD void add_surface_a(const Polygon& polygon, const HalfSpace& plane_a, const PartView& b,
+                              const FrameChange& b_to_a) {
     const Vec3 normal_in_b = transpose_times(b_to_a.rotation, plane_a.normal);
     const PolygonDepth sum = integrate_depth(polygon, b.depth_planes, b.range.depth_plane_count, normal_in_b);
     const Real s = b_to_a.scale, cube = s * s * s;

@@ -6,8 +6,8 @@
 
 namespace dem_gpu {
 
-/// x_target = scale * rotation * x_source + translation, between the unscaled body frames of two bodies. Contact geometry
-/// is computed there, so its accuracy does not depend on where the bodies are in the world.
+/// x_target = scale * rotation * x_source + translation, between the unscaled body frames of two bodies. Contact
+/// geometry is computed there, so its accuracy does not depend on where the bodies are in the world.
 struct FrameChange {
   Mat3 rotation;
   Vec3 translation;
@@ -26,8 +26,8 @@ struct Pose {
 
 /// From b's unscaled body frame to a's.
 TALUS_HD inline FrameChange frame_change(const Pose& a, const Pose& b) {
-  return {transpose_times(a.rotation, b.rotation),
-          (1 / a.scale) * transpose_times(a.rotation, b.position - a.position), b.scale / a.scale};
+  return {transpose_times(a.rotation, b.rotation), (1 / a.scale) * transpose_times(a.rotation, b.position - a.position),
+          b.scale / a.scale};
 }
 
 /// One convex part with pointers into the shape columns.
@@ -42,8 +42,12 @@ struct PartView {
 
 TALUS_HD inline PartView part_view(const ShapeView& shapes, int part) {
   const PartRange& range = shapes.parts[part];
-  return {range,          shapes.vertices + range.first_vertex, shapes.planes + range.first_face, shapes.faces + range.first_face,
-          shapes.corners, shapes.depth_planes + range.first_depth_plane};
+  return {range,
+          shapes.vertices + range.first_vertex,
+          shapes.planes + range.first_face,
+          shapes.faces + range.first_face,
+          shapes.corners,
+          shapes.depth_planes + range.first_depth_plane};
 }
 
 }  // namespace dem_gpu

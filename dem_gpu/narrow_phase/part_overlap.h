@@ -6,9 +6,9 @@
 
 namespace dem_gpu {
 
-/// Visits each piece of `surface`'s faces that lies inside `solid`, both convex. `vertices` are the surface's, already in
-/// the solid's frame, with their outcodes against the solid's planes. Each clipped face is an independent polygon; no
-/// topology is built. visitor(polygon in the solid's frame, face index). Returns false if a polygon was truncated.
+/// Visits each piece of `surface`'s faces that lies inside `solid`, both convex. `vertices` are the surface's, already
+/// in the solid's frame, with their outcodes against the solid's planes. Each clipped face is an independent polygon;
+/// no topology is built. visitor(polygon in the solid's frame, face index). Returns false if a polygon was truncated.
 template <class Visitor>
 TALUS_HD bool visit_surface_inside(const PartView& surface, int face_count, const PartView& solid, const Vec3* vertices,
                                    const FaceMask* outcode, Visitor&& visitor) {
@@ -54,16 +54,16 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
   if (separating < 0 && lies_outside(a, b.planes[-separating - 1], a_to_b)) return OverlapStatus::separated;
   separating = 0;
 
-  Vec3 vertices_b[kMaxPartVertices], vertices_a[kMaxPartVertices];
-  FaceMask outcode_b[kMaxPartVertices], outcode_a[kMaxPartVertices];
+  ScratchArray<Vec3, kMaxPartVertices> vertices_b, vertices_a;
+  ScratchArray<FaceMask, kMaxPartVertices> outcode_b, outcode_a;
   for (int v = 0; v < b.range.vertex_count; ++v) vertices_b[v] = b_to_a.point(b.vertices[v]);
-  const int face_a = classify(a, vertices_b, b.range.vertex_count, true, outcode_b);
+  const int face_a = classify(a, vertices_b.data(), b.range.vertex_count, true, outcode_b.data());
   if (face_a >= 0) {
     separating = static_cast<SeparatingPlane>(face_a + 1);
     return OverlapStatus::separated;
   }
   for (int v = 0; v < a.range.vertex_count; ++v) vertices_a[v] = a_to_b.point(a.vertices[v]);
-  const int face_b = classify(b, vertices_a, a.range.vertex_count, false, outcode_a);
+  const int face_b = classify(b, vertices_a.data(), a.range.vertex_count, false, outcode_a.data());
   if (face_b >= 0) {
     separating = static_cast<SeparatingPlane>(-face_b - 1);
     return OverlapStatus::separated;
@@ -71,12 +71,12 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
 
   const int faces_b = Integrals::kNeedsInnerFaces ? b.range.face_count : b.range.outer_face_count;
   const int faces_a = Integrals::kNeedsInnerFaces ? a.range.face_count : a.range.outer_face_count;
-  const bool b_whole = visit_surface_inside(b, faces_b, a, vertices_b, outcode_b, [&](Polygon& polygon, int face) {
-    integrals.add_surface_b(polygon, b.planes[face], a, b_to_a);
-  });
-  const bool a_whole = visit_surface_inside(a, faces_a, b, vertices_a, outcode_a, [&](Polygon& polygon, int face) {
-    integrals.add_surface_a(polygon, a.planes[face], b, b_to_a);
-  });
+  const bool b_whole = visit_surface_inside(
+      b, faces_b, a, vertices_b.data(), outcode_b.data(),
+      [&](Polygon& polygon, int face) { integrals.add_surface_b(polygon, b.planes[face], a, b_to_a); });
+  const bool a_whole = visit_surface_inside(
+      a, faces_a, b, vertices_a.data(), outcode_a.data(),
+      [&](Polygon& polygon, int face) { integrals.add_surface_a(polygon, a.planes[face], b, b_to_a); });
   return a_whole && b_whole ? OverlapStatus::overlapping : OverlapStatus::polygon_truncated;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dem_gpu/core/host_device.h"
+#include "dem_gpu/core/scratch_array.h"
 #include "dem_gpu/core/vec3.h"
 #include "dem_gpu/shapes/shape_columns.h"
 
@@ -12,7 +13,7 @@ inline constexpr int kMaxPolygonCorners = 64;
 
 /// Planar convex polygon.
 struct Polygon {
-  Vec3 corner[kMaxPolygonCorners];
+  ScratchArray<Vec3, kMaxPolygonCorners> corner;
   int count = 0;
   bool is_truncated = false;  // a corner did not fit: reported by the host, never dropped in silence
 };

@@ -22,10 +22,11 @@ TALUS_HD inline bool lies_outside(const PartView& part, const HalfSpace& plane, 
   return true;
 }
 
-/// Outcodes of vertices (in the solid's frame) against the planes of a convex solid. Returns the face whose plane has all
-/// vertices outside, or -1. `closed`: a vertex on a plane counts as inside; of the two bodies of a pair one is closed,
-/// the other open, so that coincident faces count once.
-TALUS_HD inline int classify(const PartView& solid, const Vec3* vertices, int vertex_count, bool closed, FaceMask* outcode) {
+/// Outcodes of vertices (in the solid's frame) against the planes of a convex solid. Returns the face whose plane has
+/// all vertices outside, or -1. `closed`: a vertex on a plane counts as inside; of the two bodies of a pair one is
+/// closed, the other open, so that coincident faces count once.
+TALUS_HD inline int classify(const PartView& solid, const Vec3* vertices, int vertex_count, bool closed,
+                             FaceMask* outcode) {
   for (int v = 0; v < vertex_count; ++v) outcode[v] = FaceMask{};
   for (int f = 0; f < solid.range.face_count; ++f) {
     const HalfSpace plane = solid.planes[f];

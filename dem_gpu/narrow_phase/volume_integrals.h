@@ -8,20 +8,21 @@
 
 namespace dem_gpu {
 
-/// Overlap integrals V, S, M of two bodies in a's unscaled body frame, additive over part pairs: inner faces are visited
-/// too and cancel. Feng, Comput. Methods Appl. Mech. Eng. 373 (2021) 113493; divergence theorem about a point of the
-/// overlap, not the world's origin.
+/// Overlap integrals V, S, M of two bodies in a's unscaled body frame, additive over part pairs: inner faces are
+/// visited too and cancel. Feng, Comput. Methods Appl. Mech. Eng. 373 (2021) 113493; divergence theorem about a point
+/// of the overlap, not the world's origin.
 struct VolumeIntegrals {
   static constexpr bool kNeedsInnerFaces = true;
 
-  Real volume = 0;      // V [m3]
-  Vec3 area;            // S = integral over a's surface in b of n dA [m2]
-  Vec3 area_moment;     // M = integral over the same of x cross n dA, about a's centre [m3]
-  Vec3 first_moment;    // integral of (x - reference) dV [m4]
-  Vec3 reference;       // a point of the overlap [m]
+  Real volume = 0;    // V [m3]
+  Vec3 area;          // S = integral over a's surface in b of n dA [m2]
+  Vec3 area_moment;   // M = integral over the same of x cross n dA, about a's centre [m3]
+  Vec3 first_moment;  // integral of (x - reference) dV [m4]
+  Vec3 reference;     // a point of the overlap [m]
   bool has_reference = false;
 
-  TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, const PartView&, const FrameChange& b_to_a) {
+  TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, const PartView&,
+                              const FrameChange& b_to_a) {
     add_volume(polygon, b_to_a.direction(plane_b.normal));
   }
 

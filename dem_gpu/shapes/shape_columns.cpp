@@ -47,26 +47,15 @@ std::vector<HalfSpace> depth_planes(const std::vector<ConvexPart>& parts, std::s
     for (const ConvexFace& face : parts[other].faces) {
       if (face.kind != FaceKind::outer) continue;
       const HalfSpace plane = to_half_space(face);
-      const bool is_own_cut = std::any_of(own_cuts.begin(), own_cuts.end(), [&](const HalfSpace& cut) {
-        return is_same_plane(cut, plane, size);
-      });
+      const bool is_own_cut = std::any_of(own_cuts.begin(), own_cuts.end(),
+                                          [&](const HalfSpace& cut) { return is_same_plane(cut, plane, size); });
       if (!is_own_cut && lies_behind(parts[self], plane, size)) add_new(plane);
     }
   }
   return planes;
 }
 
-struct HostColumns {
-  std::vector<ShapeRange> shapes;
-  std::vector<PartRange> parts;
-  std::vector<Vec3> vertices;
-  std::vector<HalfSpace> planes;
-  std::vector<FaceCorners> faces;
-  std::vector<std::uint8_t> corners;
-  std::vector<HalfSpace> depth_planes;
-};
-
-PartRange append_part(HostColumns& columns, const ConvexPart& part) {
+PartRange append_part(HostShapeColumns& columns, const ConvexPart& part) {
   PartRange range;
   range.first_vertex = static_cast<int>(columns.vertices.size());
   range.vertex_count = static_cast<int>(part.vertices.size());
@@ -93,7 +82,8 @@ PartRange append_part(HostColumns& columns, const ConvexPart& part) {
   return range;
 }
 
-void append_polyhedron(HostColumns& columns, const PolyhedralShape& polyhedron, ShapeRange& range, Real depth_cap) {
+void append_polyhedron(HostShapeColumns& columns, const PolyhedralShape& polyhedron, ShapeRange& range,
+                       Real depth_cap) {
   range.first_part = static_cast<int>(columns.parts.size());
   range.part_count = static_cast<int>(polyhedron.parts.size());
   for (std::size_t p = 0; p < polyhedron.parts.size(); ++p) {
@@ -111,8 +101,8 @@ void append_polyhedron(HostColumns& columns, const PolyhedralShape& polyhedron, 
 
 }  // namespace
 
-ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, Real depth_cap) {
-  HostColumns host;
+HostShapeColumns make_host_shape_columns(const std::vector<Shape>& shapes, Real depth_cap) {
+  HostShapeColumns columns;
   for (const Shape& shape : shapes) {
     ShapeRange range;
     range.volume = shape.volume;
@@ -121,9 +111,14 @@ ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, Real depth_cap
     if (const auto* sphere = std::get_if<SphereShape>(&shape.geometry))
       range.sphere_radius = range.bounding_radius = sphere->radius;
     else
-      append_polyhedron(host, std::get<PolyhedralShape>(shape.geometry), range, depth_cap);
-    host.shapes.push_back(range);
+      append_polyhedron(columns, std::get<PolyhedralShape>(shape.geometry), range, depth_cap);
+    columns.shapes.push_back(range);
   }
+  return columns;
+}
+
+ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, Real depth_cap) {
+  const HostShapeColumns host = make_host_shape_columns(shapes, depth_cap);
   ShapeColumns columns;
   assign(columns.shapes, host.shapes);
   assign(columns.parts, host.parts);
@@ -138,6 +133,11 @@ ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, Real depth_cap
 ShapeView view(const ShapeColumns& columns) {
   return {pointer(columns.shapes), pointer(columns.parts),   pointer(columns.vertices),    pointer(columns.planes),
           pointer(columns.faces),  pointer(columns.corners), pointer(columns.depth_planes)};
+}
+
+ShapeView view(const HostShapeColumns& columns) {
+  return {columns.shapes.data(), columns.parts.data(),   columns.vertices.data(),    columns.planes.data(),
+          columns.faces.data(),  columns.corners.data(), columns.depth_planes.data()};
 }
 
 }  // namespace dem_gpu

@@ -18,7 +18,7 @@ struct HalfSpace {
 
 struct PartRange {
   int first_vertex = 0, vertex_count = 0;
-  int first_face = 0, face_count = 0;    // outer faces first
+  int first_face = 0, face_count = 0;  // outer faces first
   int outer_face_count = 0;
   int first_depth_plane = 0, depth_plane_count = 0;
   Vec3 centre;      // of the bounding sphere, body frame [m]
@@ -39,15 +39,28 @@ struct ShapeRange {
   Vec3 inertia;                        // principal, density 1 [m5]
 };
 
-/// Constant during a run, all at scale 1 in the body frame. Walls that are volume objects stand after the scene's shapes.
+/// Constant during a run, all at scale 1 in the body frame. Walls that are volume objects stand after the scene's
+/// shapes.
 struct ShapeColumns {
-  DeviceVector<ShapeRange> shapes;      // n_shapes
-  DeviceVector<PartRange> parts;        // n_parts
-  DeviceVector<Vec3> vertices;          // n_vertices [m]
-  DeviceVector<HalfSpace> planes;       // n_faces
-  DeviceVector<FaceCorners> faces;      // n_faces
-  DeviceVector<std::uint8_t> corners;   // vertex of the part, per corner of a face
-  DeviceVector<HalfSpace> depth_planes; // n_depth_planes: the body's depth field in a part is the least depth below these
+  DeviceVector<ShapeRange> shapes;     // n_shapes
+  DeviceVector<PartRange> parts;       // n_parts
+  DeviceVector<Vec3> vertices;         // n_vertices [m]
+  DeviceVector<HalfSpace> planes;      // n_faces
+  DeviceVector<FaceCorners> faces;     // n_faces
+  DeviceVector<std::uint8_t> corners;  // vertex of the part, per corner of a face
+  DeviceVector<HalfSpace>
+      depth_planes;  // n_depth_planes: the body's depth field in a part is the least depth below these
+};
+
+/// The same on the host, for checks and tests.
+struct HostShapeColumns {
+  std::vector<ShapeRange> shapes;
+  std::vector<PartRange> parts;
+  std::vector<Vec3> vertices;
+  std::vector<HalfSpace> planes;
+  std::vector<FaceCorners> faces;
+  std::vector<std::uint8_t> corners;
+  std::vector<HalfSpace> depth_planes;
 };
 
 struct ShapeView {
@@ -61,7 +74,9 @@ struct ShapeView {
 };
 
 /// `depth_cap` in equivalent diameters: a constant term of every depth field.
+HostShapeColumns make_host_shape_columns(const std::vector<Shape>& shapes, Real depth_cap);
 ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, Real depth_cap);
 ShapeView view(const ShapeColumns& columns);
+ShapeView view(const HostShapeColumns& columns);
 
 }  // namespace dem_gpu

@@ -14,13 +14,13 @@ namespace dem_gpu {
 struct WallRecord {
   WallKind kind = WallKind::plane;
   bool is_present = true;
-  int shape = -1;         // volume objects: row of ShapeColumns
+  int shape = -1;  // volume objects: row of ShapeColumns
   int material = 0;
-  Vec3 point;             // plane point, disc centre, base of cylinder and cone; position of a volume object [m]
-  Vec3 direction;         // normal or axis, unit
-  Real length = 0;        // [m]
-  Real base_radius = 0;   // [m]
-  Real top_radius = 0;    // [m]
+  Vec3 point;                // plane point, disc centre, base of cylinder and cone; position of a volume object [m]
+  Vec3 direction;            // normal or axis, unit
+  Real length = 0;           // [m]
+  Real base_radius = 0;      // [m]
+  Real top_radius = 0;       // [m]
   Real bounding_radius = 0;  // volume objects, about point [m]
   Quaternion orientation;    // volume objects
   Vec3 rotation_centre;      // where the wall's torque is taken [m]
@@ -42,7 +42,7 @@ class WallSet {
   int count() const { return static_cast<int>(now_.size()); }
   const std::vector<WallRecord>& records() const { return now_; }
   const WallRecord* device() const { return pointer(device_); }
-  Vec3 translation(int wall) const;       // x_world(t) = rotation * x_world(0) + translation
+  Vec3 translation(int wall) const;  // x_world(t) = rotation * x_world(0) + translation
   Quaternion rotation(int wall) const;
   bool has_moving_walls() const;
 
@@ -50,7 +50,8 @@ class WallSet {
   std::vector<Wall> walls_;
   std::vector<WallRecord> at_start_;
   std::vector<WallRecord> now_;
-  std::vector<Real> reach_;   // largest distance of the wall's surface from its axis of rotation [m]; 0: maps onto itself
+  std::vector<Real>
+      reach_;  // largest distance of the wall's surface from its axis of rotation [m]; 0: maps onto itself
   DeviceVector<WallRecord> device_;
   Real time_ = 0;
 };

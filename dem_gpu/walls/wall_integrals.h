@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dem_gpu/contacts/elastic_contact.h"
+#include "dem_gpu/core/scratch_array.h"
 #include "dem_gpu/narrow_phase/part_frame.h"
 #include "dem_gpu/scene.h"
 #include "dem_gpu/walls/wall_surface.h"
@@ -9,10 +10,10 @@
 namespace dem_gpu {
 
 /// Integrals of a wall's depth over the part of a body's outer surface inside the wall, world frame about `centre`:
-/// force direction = - integral of depth n dA. The wall's field alone carries the contact (U = 2 k integral of the wall's
-/// depth over the overlap), so a flat face meets a wall as it meets another flat face. Planes are exact; on curved walls
-/// each face is cut into triangles about its centre on which the depth is taken as linear (error of second order in
-/// face size over wall radius).
+/// force direction = - integral of depth n dA. The wall's field alone carries the contact (U = 2 k integral of the
+/// wall's depth over the overlap), so a flat face meets a wall as it meets another flat face. Planes are exact; on
+/// curved walls each face is cut into triangles about its centre on which the depth is taken as linear (error of second
+/// order in face size over wall radius).
 struct WallIntegrals {
   Vec3 force;           // [m3]
   Vec3 moment;          // [m4]
@@ -94,7 +95,7 @@ TALUS_HD inline void integrate_part_in_wall(const PartView& part, const Pose& po
     const Vec3 relative = pose.scale * (pose.rotation * x);
     return WallIntegrals::Sample{relative, wall_field(wall, pose.position + relative)};
   };
-  WallIntegrals::Sample vertices[kMaxPartVertices];
+  ScratchArray<WallIntegrals::Sample, kMaxPartVertices> vertices;
   bool touches = false;
   for (int v = 0; v < part.range.vertex_count; ++v) {
     vertices[v] = sample(part.vertices[v]);

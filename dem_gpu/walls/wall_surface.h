@@ -9,8 +9,8 @@ namespace dem_gpu {
 
 /// Where a point stands against an analytic wall. The wall's solid is where all three are >= 0.
 struct WallField {
-  Real depth = 0;         // below the surface [m]; 1-Lipschitz
-  Real from_base = 1;     // inside the wall's extent [m]
+  Real depth = 0;      // below the surface [m]; 1-Lipschitz
+  Real from_base = 1;  // inside the wall's extent [m]
   Real from_top = 1;
 };
 
@@ -40,7 +40,8 @@ TALUS_HD inline WallField wall_field(const WallRecord& wall, const Vec3& x) {
   return {gap / std::sqrt(1 + slope * slope), position.along, wall.length - position.along};
 }
 
-/// Signed distance of a point from a wall's surface, positive in the solid, and the unit direction into the solid there.
+/// Signed distance of a point from a wall's surface, positive in the solid, and the unit direction into the solid
+/// there.
 struct SurfaceDistance {
   Real depth = 0;  // [m]
   Vec3 into_wall;
@@ -63,8 +64,8 @@ TALUS_HD inline SurfaceDistance surface_distance(const WallRecord& wall, const V
   if (share > 0 && share < 1) {
     // Into the solid: away from the axis for cylinder and cone, against the normal for a disc.
     const Real length = std::sqrt(square);
-    const Vec3 into = is_disc ? -wall.direction
-                              : (step_along / length) * position.outward - (step_radius / length) * wall.direction;
+    const Vec3 into =
+        is_disc ? -wall.direction : (step_along / length) * position.outward - (step_radius / length) * wall.direction;
     return {-dot(to_surface, into), into};
   }
   const Real distance = norm(to_surface);

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dem_gpu/broad_phase/neighbour_list.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "dem_gpu/broad_phase/cell_grid.h"
+#include "dem_gpu/core/parallel.h"
+#include "dem_gpu/walls/wall_surface.h"
+
+namespace dem_gpu {
+namespace {
+
+TALUS_HD ContactKey pair_key(const ShapeRange* shapes, const int* shape, int i, int j) {
+  const bool i_is_sphere = shapes[shape[i]].part_count == 0, j_is_sphere = shapes[shape[j]].part_count == 0;
+  if (i_is_sphere == j_is_sphere)
+    return contact_key(i_is_sphere ? ContactKind::sphere_sphere : ContactKind::polyhedron_polyhedron, i < j ? i : j,
+                       i < j ? j : i);
+  return contact_key(ContactKind::sphere_polyhedron, i_is_sphere ? i : j, i_is_sphere ? j : i);
+}
+
+TALUS_HD ContactKey wall_key(const ShapeRange* shapes, int shape, const WallRecord& wall, int body, int index) {
+  const bool is_sphere = shapes[shape].part_count == 0;
+  const ContactKind kind = wall.kind == WallKind::volume_object
+                               ? (is_sphere ? ContactKind::sphere_object : ContactKind::polyhedron_object)
+                               : (is_sphere ? ContactKind::sphere_wall : ContactKind::polyhedron_wall);
+  return contact_key(kind, body, index);
+}
+
+/// May a ball of radius `reach` about x touch the wall?
+TALUS_HD bool is_near_wall(const ShapeView& shapes, const WallRecord& wall, const Vec3& x, Real reach) {
+  if (!wall.is_present) return false;
+  if (wall.kind == WallKind::volume_object) {
+    const PartView part = part_view(shapes, shapes.shapes[wall.shape].first_part);
+    const Vec3 local = rotate_back(wall.orientation, x - wall.point);
+    for (int f = 0; f < part.range.face_count; ++f)
+      if (dot(part.planes[f].normal, local) - part.planes[f].offset > reach) return false;
+    return true;
+  }
+  const WallField field = wall_field(wall, x);
+  return field.depth > -reach && field.from_base > -reach && field.from_top > -reach;
+}
+
+/// Counts (keys == nullptr) or writes the candidate pairs that body i owns: with bodies of higher index, with walls.
+struct ListPairs {
+  BodyView bodies;
+  ShapeView shapes;
+  CellGrid::View grid;
+  const WallRecord* walls;
+  int wall_count;
+  Real skin;  // [m]
+  int* first;
+  ContactKey* keys;
+
+  TALUS_HD void operator()(int i) const {
+    int count = 0;
+    if (bodies.active[i]) {
+      const Vec3 x = bodies.position[i];
+      const Real radius = bodies.bounding_radius[i];
+      ContactKey* out = keys ? keys + first[i] : nullptr;
+      grid.visit_neighbours(x, [&](int j) {
+        if (j <= i) return;
+        const Real reach = radius + bodies.bounding_radius[j] + skin;
+        if (norm_squared(bodies.position[j] - x) >= reach * reach) return;
+        if (out) out[count] = pair_key(shapes.shapes, bodies.shape, i, j);
+        ++count;
+      });
+      for (int w = 0; w < wall_count; ++w) {
+        if (!is_near_wall(shapes, walls[w], x, radius + skin)) continue;
+        if (out) out[count] = wall_key(shapes.shapes, bodies.shape[i], walls[w], i, w);
+        ++count;
+      }
+    }
+    if (!keys) first[i] = count;
+  }
+};
+
+/// Length of each contact's separating-plane cache.
+struct CountPartPairs {
+  ContactView contacts;
+  BodyView bodies;
+  const ShapeRange* shapes;
+  const WallRecord* walls;
+
+  TALUS_HD void operator()(int c) const {
+    const ContactKey key = contacts.key[c];
+    const ContactKind kind = key_kind(key);
+    int pairs = 0;
+    if (kind == ContactKind::polyhedron_polyhedron)
+      pairs = shapes[bodies.shape[key_body_a(key)]].part_count * shapes[bodies.shape[key_body_b(key)]].part_count;
+    else if (kind == ContactKind::polyhedron_object)
+      pairs = shapes[bodies.shape[key_body_a(key)]].part_count;
+    contacts.cache_begin[c] = pairs;
+  }
+};
+
+/// Copies what contact c carried before the list was rebuilt, if it was there.
+struct CarryHistory {
+  ContactView from, to;
+  int from_count;
+  ContactFeatures features;
+
+  TALUS_HD void operator()(int c) const {
+    const int old = lower_bound(from.key, from_count, to.key[c]);
+    if (old == from_count || from.key[old] != to.key[c]) return;
+    to.force[c] = from.force[old];
+    to.torque_a[c] = from.torque_a[old];
+    to.torque_b[c] = from.torque_b[old];
+    to.point[c] = from.point[old];
+    to.depth[c] = from.depth[old];
+    if (features.has_polyhedra) {
+      const int length = to.cache_begin[c + 1] - to.cache_begin[c];
+      for (int k = 0; k < length; ++k)
+        to.separating[to.cache_begin[c] + k] = from.separating[from.cache_begin[old] + k];
+    }
+    if (features.has_friction) to.tangential_displacement[c] = from.tangential_displacement[old];
+    if (features.has_ledger) {
+      to.elastic_work[c] = from.elastic_work[old];
+      to.tangential_energy[c] = from.tangential_energy[old];
+      to.last_elastic_force[c] = from.last_elastic_force[old];
+      to.last_elastic_torque_a[c] = from.last_elastic_torque_a[old];
+      to.last_elastic_torque_b[c] = from.last_elastic_torque_b[old];
+      to.last_damping_force[c] = from.last_damping_force[old];
+      to.last_friction_force[c] = from.last_friction_force[old];
+    }
+  }
+};
+
+/// Entries of the two sides of contact c; a wall side sorts behind all bodies.
+struct ListIncidence {
+  const ContactKey* key;
+  int body_count;
+  std::int64_t* incident;
+
+  TALUS_HD void operator()(int c) const {
+    const auto entry = [&](int body, int side) {
+      return (static_cast<std::int64_t>(body) << 32) | static_cast<std::int64_t>(2 * c + side);
+    };
+    incident[2 * c] = entry(key_body_a(key[c]), 0);
+    incident[2 * c + 1] = entry(is_wall_kind(key_kind(key[c])) ? body_count : key_body_b(key[c]), 1);
+  }
+};
+
+struct FindIncidence {
+  const std::int64_t* incident;
+  int count;
+  int* first;
+
+  TALUS_HD void operator()(int body) const {
+    first[body] = lower_bound(incident, count, static_cast<std::int64_t>(body) << 32);
+  }
+};
+
+struct MarkListed {
+  BodyView bodies;
+  TALUS_HD void operator()(int i) const {
+    bodies.listed_position[i] = bodies.position[i];
+    bodies.listed_displacement[i] = 0;
+  }
+};
+
+DeviceVector<ContactKey> candidate_keys(const Model& model, State& state) {
+  const BodyView bodies = view(model.bodies, state.bodies);
+  const Real reach = 2 * max_of(model.bodies.bounding_radius, Real(0)) + model.skin;
+  CellGrid grid;
+  grid.build(bodies, reach);
+  DeviceVector<int> first(static_cast<std::size_t>(bodies.count) + 1, 0);
+  ListPairs list{bodies,     view(model.shapes), grid.view(), state.walls.device(), state.walls.count(),
+                 model.skin, pointer(first),     nullptr};
+  parallel_for(0, bodies.count, list);
+  DeviceVector<ContactKey> keys(static_cast<std::size_t>(exclusive_scan(first)));
+  list.keys = pointer(keys);
+  if (!keys.empty()) parallel_for(0, bodies.count, list);
+  sort(keys);
+  return keys;
+}
+
+void list_incidence(State& state, int body_count) {
+  const int count = static_cast<int>(state.contacts.key.size());
+  state.incident.resize(2 * static_cast<std::size_t>(count));
+  state.incident_first.resize(static_cast<std::size_t>(body_count) + 1);
+  parallel_for(0, count, ListIncidence{pointer(state.contacts.key), body_count, pointer(state.incident)});
+  sort(state.incident);
+  parallel_for(0, body_count + 1, FindIncidence{pointer(state.incident), 2 * count, pointer(state.incident_first)});
+}
+
+[[noreturn]] void report_lost_body(const Model& model, const State& state) {
+  const auto displacement = to_host(state.bodies.listed_displacement);
+  std::size_t body = 0;
+  while (body + 1 < displacement.size() && std::isfinite(displacement[body])) ++body;
+  const Vec3 x = state.bodies.position[body], v = state.bodies.velocity[body];
+  const auto text = [](const Vec3& a) {
+    return "(" + std::to_string(a.x) + ", " + std::to_string(a.y) + ", " + std::to_string(a.z) + ")";
+  };
+  throw std::runtime_error("step " + std::to_string(state.step) + ", time " + std::to_string(state.time(model)) +
+                           " s: body " + std::to_string(body) + " at " + text(x) + " m moves at " + text(v) +
+                           " m/s, more than half its radius in a step or not finite; use a shorter time step, or check "
+                           "that no bodies overlap at the start");
+}
+
+class NeighbourList : public Pass {
+ public:
+  std::string name() const override { return "neighbour_list"; }
+  void run(const Model& model, State& state) override {
+    const Real moved = max_of(state.bodies.listed_displacement, Real(0));
+    if (!std::isfinite(moved)) report_lost_body(model, state);
+    const Real time = state.time(model);
+    // Two bodies may each have come half a skin closer; a wall's own motion takes its share.
+    const bool is_worn = 2 * moved + state.walls.largest_displacement(state.listed_time, time) > model.skin;
+    if (!is_worn && !state.list_is_stale) return;
+    build_neighbour_list(model, state);
+  }
+};
+
+}  // namespace
+
+void build_neighbour_list(const Model& model, State& state) {
+  collect_accounts(model, state);
+  const BodyView bodies = view(model.bodies, state.bodies);
+  ContactColumns next;
+  next.key = candidate_keys(model, state);
+  const int count = static_cast<int>(next.key.size());
+  resize_columns(next, count, model.features);
+  if (model.features.has_polyhedra) {
+    parallel_for(0, count, CountPartPairs{view(next), bodies, pointer(model.shapes.shapes), state.walls.device()});
+    next.separating.assign(static_cast<std::size_t>(exclusive_scan(next.cache_begin)), SeparatingPlane{0});
+  }
+  const int old_count = static_cast<int>(state.contacts.key.size());
+  if (old_count > 0) parallel_for(0, count, CarryHistory{view(state.contacts), view(next), old_count, model.features});
+  state.contacts = std::move(next);
+  for (int kind = 0; kind < kContactKinds; ++kind) {
+    state.range[kind].first = count_below(state.contacts.key, contact_key(static_cast<ContactKind>(kind), 0, 0));
+    state.range[kind].last = count_below(state.contacts.key, contact_key(static_cast<ContactKind>(kind + 1), 0, 0));
+  }
+  list_incidence(state, bodies.count);
+  parallel_for(0, bodies.count, MarkListed{bodies});
+  state.listed_time = state.time(model);
+  state.list_is_stale = false;
+  ++state.accounts.list_rebuilds;
+}
+
+std::unique_ptr<Pass> make_neighbour_list_pass() { return std::make_unique<NeighbourList>(); }
+
+}  // namespace dem_gpu

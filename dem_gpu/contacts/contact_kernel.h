@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "dem_gpu/bodies/model_state.h"
+#include "dem_gpu/core/parallel.h"
+#include "dem_gpu/core/pass.h"
+
+namespace dem_gpu {
+
+/// Everything a contact kernel reads, and the contact table it writes.
+struct ContactScene {
+  ContactView contacts;
+  BodyView bodies;
+  ShapeView shapes;
+  const WallRecord* walls;
+  const PairProperties* pairs;
+  int material_count;
+  Real time_step;  // [s]
+
+  TALUS_HD const PairProperties& pair(int material_a, int material_b) const {
+    return pairs[material_a * material_count + material_b];
+  }
+  TALUS_HD Pose pose(int body) const {
+    return {rotation_matrix(bodies.orientation[body]), bodies.position[body], bodies.scale[body]};
+  }
+};
+
+inline ContactScene contact_scene(const Model& model, State& state) {
+  return {view(state.contacts), view(model.bodies, state.bodies),
+          view(model.shapes),   state.walls.device(),
+          pointer(model.pairs), model.material_count,
+          model.time_step};
+}
+
+/// What stands on side b of a contact.
+struct BodyPartner {
+  static constexpr bool kIsWall = false;
+};
+struct WallPartner {
+  static constexpr bool kIsWall = true;
+};
+
+/// One contact a thread: `Geometry` finds the elastic contact, the response completes it.
+template <class Geometry, class Friction, class Record>
+struct ComputeContact {
+  ContactScene scene;
+  Geometry geometry;
+  Friction friction;
+
+  TALUS_HD void operator()(int c) const {
+    const ContactKey key = scene.contacts.key[c];
+    const int a = key_body_a(key), b = key_body_b(key);
+    ElasticContact elastic;
+    const bool is_touching = geometry.find(scene, c, a, b, elastic);
+    if (!is_touching && scene.contacts.depth[c] == 0) return;
+    const ContactSide side_a = body_side(scene.bodies, a);
+    const ContactSide side_b = other_side(b);
+    if (!is_touching) {
+      end_contact<Friction, Record>(scene.contacts, c, side_a, side_b, scene.time_step);
+      return;
+    }
+    const int material_a = scene.bodies.material[a];
+    const Real diameter_a = scene.bodies.diameter[a];
+    if constexpr (Geometry::Partner::kIsWall)
+      respond<Friction, Record>(scene.contacts, c, elastic, side_a, side_b,
+                                scene.pair(material_a, scene.walls[b].material), friction, scene.time_step, diameter_a);
+    else
+      respond<Friction, Record>(scene.contacts, c, elastic, side_a, side_b,
+                                scene.pair(material_a, scene.bodies.material[b]), friction, scene.time_step,
+                                std::min(diameter_a, scene.bodies.diameter[b]));
+  }
+
+  TALUS_HD ContactSide other_side(int b) const {
+    if constexpr (Geometry::Partner::kIsWall)
+      return wall_side(scene.walls[b]);
+    else
+      return body_side(scene.bodies, b);
+  }
+};
+
+template <class Geometry, class Friction, class Record>
+class ContactPass : public Pass {
+ public:
+  ContactPass(std::string name, ContactKind kind, Geometry geometry, Friction friction)
+      : name_(std::move(name)), kind_(kind), geometry_(geometry), friction_(friction) {}
+
+  std::string name() const override { return name_; }
+  void run(const Model& model, State& state) override {
+    const ContactRange range = state.range[static_cast<int>(kind_)];
+    parallel_for(range.first, range.last,
+                 ComputeContact<Geometry, Friction, Record>{contact_scene(model, state), geometry_, friction_});
+  }
+
+ private:
+  std::string name_;
+  ContactKind kind_;
+  Geometry geometry_;
+  Friction friction_;
+};
+
+using FrictionPolicy = std::variant<NoFriction, CoulombFriction>;
+using RecordPolicy = std::variant<NoWorkRecord, WorkRecord>;
+
+inline FrictionPolicy friction_policy(const Scene& scene) {
+  if (!scene.friction) return NoFriction{};
+  return CoulombFriction{scene.friction->tangential_stiffness_ratio};
+}
+inline RecordPolicy record_policy(const Scene& scene) {
+  if (!scene.energy_ledger) return NoWorkRecord{};
+  return WorkRecord{};
+}
+
+/// The choice of kernel, made once. `make_geometry(law)` gives the contact geometry for each alternative of `law`.
+template <class Law, class MakeGeometry>
+std::unique_ptr<Pass> make_contact_pass(std::string name, ContactKind kind, const Scene& scene, const Law& law,
+                                        const MakeGeometry& make_geometry) {
+  const auto make = [&](const auto& chosen, auto friction, auto record) -> std::unique_ptr<Pass> {
+    const auto geometry = make_geometry(chosen);
+    return std::make_unique<ContactPass<std::decay_t<decltype(geometry)>, decltype(friction), decltype(record)>>(
+        std::move(name), kind, geometry, friction);
+  };
+  return std::visit(make, law, friction_policy(scene), record_policy(scene));
+}
+
+}  // namespace dem_gpu

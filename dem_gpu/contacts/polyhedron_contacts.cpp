@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dem_gpu/contacts/contact_passes.h"
+#include "dem_gpu/contacts/polyhedron_geometry.h"
+
+namespace dem_gpu {
+
+std::unique_ptr<Pass> make_polyhedron_contacts_pass(const Scene& scene) {
+  return make_contact_pass(
+      "polyhedron_contacts", ContactKind::polyhedron_polyhedron, scene, scene.polyhedral_law,
+      [](const auto& law) { return PolyhedronGeometry<std::decay_t<decltype(law)>, BodyPartner>{law}; });
+}
+
+}  // namespace dem_gpu

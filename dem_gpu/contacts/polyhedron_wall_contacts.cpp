@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dem_gpu/contacts/contact_kernel.h"
+#include "dem_gpu/contacts/contact_passes.h"
+#include "dem_gpu/walls/wall_integrals.h"
+
+namespace dem_gpu {
+namespace {
+
+/// Stiffness per area of a wall's field so that a flat face meets a wall as stiffly as another flat face.
+TALUS_HD Real wall_stiffness(const DepthPotential& law) { return 2 * law.stiffness; }
+/// F = k V n on a flat wall: the integral of the depth over the surface inside is the overlap volume.
+TALUS_HD Real wall_stiffness(const OverlapVolume& law) { return law.stiffness; }
+
+/// Polyhedron against an analytic wall.
+template <class Law>
+struct PolyhedronWallGeometry {
+  using Partner = WallPartner;
+  Law law;
+
+  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic) const {
+    const WallRecord& wall = scene.walls[b];
+    const Pose pose = scene.pose(a);
+    if (wall_field(wall, pose.position).depth + scene.bodies.bounding_radius[a] <= 0) return false;
+    WallIntegrals integrals;
+    const ShapeRange& shape = scene.shapes.shapes[scene.bodies.shape[a]];
+    for (int p = 0; p < shape.part_count; ++p)
+      integrate_part_in_wall(part_view(scene.shapes, shape.first_part + p), pose, wall, integrals);
+    return integrals.to_contact(wall_stiffness(law), pose.position, elastic);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Pass> make_polyhedron_wall_contacts_pass(const Scene& scene) {
+  return make_contact_pass("polyhedron_wall_contacts", ContactKind::polyhedron_wall, scene, scene.polyhedral_law,
+                           [](const auto& law) { return PolyhedronWallGeometry<std::decay_t<decltype(law)>>{law}; });
+}
+
+}  // namespace dem_gpu

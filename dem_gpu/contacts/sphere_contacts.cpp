@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dem_gpu/contacts/contact_passes.h"
+#include "dem_gpu/contacts/sphere_geometry.h"
+
+namespace dem_gpu {
+namespace {
+
+template <class Law>
+struct SphereSphereGeometry {
+  using Partner = BodyPartner;
+  Law law;
+
+  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic) const {
+    const BodyView& bodies = scene.bodies;
+    const Vec3 offset = bodies.position[b] - bodies.position[a];
+    const Real radius_a = bodies.bounding_radius[a], radius_b = bodies.bounding_radius[b];
+    const Real square = norm_squared(offset), reach = radius_a + radius_b;
+    if (square >= reach * reach) return false;
+    const Real distance = std::sqrt(square);
+    const SphereGap gap{distance - radius_b, distance > 0 ? offset / distance : Vec3{0, 0, 1},
+                        radius_a * radius_b / reach};
+    return sphere_contact(law, bodies.position[a], radius_a, gap,
+                          scene.pair(bodies.material[a], bodies.material[b]).effective_modulus, elastic);
+  }
+};
+
+template <class Law>
+struct SphereWallGeometry {
+  using Partner = WallPartner;
+  Law law;
+
+  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic) const {
+    const WallRecord& wall = scene.walls[b];
+    const Real radius = scene.bodies.bounding_radius[a];
+    const SurfaceDistance surface = surface_distance(wall, scene.bodies.position[a]);
+    return sphere_contact(law, scene.bodies.position[a], radius, {-surface.depth, surface.into_wall, radius},
+                          scene.pair(scene.bodies.material[a], wall.material).effective_modulus, elastic);
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Pass> make_sphere_contacts_pass(const Scene& scene) {
+  return make_contact_pass("sphere_contacts", ContactKind::sphere_sphere, scene, scene.sphere_law,
+                           [](const auto& law) { return SphereSphereGeometry<std::decay_t<decltype(law)>>{law}; });
+}
+
+std::unique_ptr<Pass> make_sphere_wall_contacts_pass(const Scene& scene) {
+  return make_contact_pass("sphere_wall_contacts", ContactKind::sphere_wall, scene, scene.sphere_law,
+                           [](const auto& law) { return SphereWallGeometry<std::decay_t<decltype(law)>>{law}; });
+}
+
+}  // namespace dem_gpu

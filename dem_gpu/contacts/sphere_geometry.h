@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dem_gpu/contacts/contact_kernel.h"
+#include "dem_gpu/narrow_phase/closest_point.h"
+#include "dem_gpu/walls/wall_surface.h"
+
+namespace dem_gpu {
+
+/// Distance from a sphere's centre to the other surface, and the unit direction from the centre into the other solid.
+struct SphereGap {
+  Real distance = 0;          // [m]; contact if below the radius
+  Vec3 direction;             // contact normal
+  Real effective_radius = 0;  // [m]
+};
+
+/// Elastic contact of a sphere under a sphere law; false without overlap.
+template <class Law>
+TALUS_HD bool sphere_contact(const Law& law, const Vec3& centre, Real radius, const SphereGap& gap,
+                             Real effective_modulus, ElasticContact& elastic) {
+  const Real overlap = radius - gap.distance;
+  if (!(overlap > 0)) return false;
+  elastic.normal = gap.direction;
+  elastic.depth = overlap;
+  elastic.stiffness = law.tangent_stiffness(overlap, gap.effective_radius, effective_modulus);
+  elastic.force = -law.normal_force(overlap, gap.effective_radius, effective_modulus) * gap.direction;
+  elastic.point = centre + (gap.distance + overlap / 2) * gap.direction;
+  elastic.torque_a = Vec3{};
+  return true;
+}
+
+/// Least signed distance of a point from the parts of a polyhedral body; the normal points from the body to the point.
+TALUS_HD inline PartDistance distance_to_body(const ShapeView& shapes, int shape, const Pose& pose, const Vec3& x,
+                                              Real reach) {
+  const Vec3 local = (1 / pose.scale) * transpose_times(pose.rotation, x - pose.position);
+  const Real local_reach = reach / pose.scale;
+  PartDistance nearest{2 * local_reach + 1, {0, 0, 1}};
+  const ShapeRange& range = shapes.shapes[shape];
+  for (int p = 0; p < range.part_count; ++p) {
+    const PartView part = part_view(shapes, range.first_part + p);
+    const Real part_reach = local_reach + part.range.radius;
+    if (norm_squared(local - part.range.centre) >= part_reach * part_reach) continue;
+    const PartDistance distance = distance_to_part(part, local, local_reach);
+    if (distance.distance < nearest.distance) nearest = distance;
+  }
+  return {pose.scale * nearest.distance, pose.rotation * nearest.outward};
+}
+
+}  // namespace dem_gpu

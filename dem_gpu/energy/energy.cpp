@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dem_gpu/energy/energy.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem_gpu/core/parallel.h"
+
+namespace dem_gpu {
+namespace {
+
+double kinetic_energy(double mass, const Vec3& velocity, const Vec3& inertia, const Vec3& angular_velocity) {
+  return 0.5 * (mass * norm_squared(velocity) + dot(inertia, hadamard(angular_velocity, angular_velocity)));
+}
+
+template <class T>
+double sum(const std::vector<T>& values) {
+  double total = 0;
+  for (const T& value : values) total += value;
+  return total;
+}
+
+/// Stored energy of the contacts that the marked bodies take part in goes with them.
+double stored_in_contacts(const State& state, const std::vector<int>& is_leaving) {
+  const auto keys = to_host(state.contacts.key);
+  const auto elastic = to_host(state.contacts.elastic_work);
+  const auto tangential = to_host(state.contacts.tangential_energy);
+  double stored = 0;
+  for (std::size_t c = 0; c < elastic.size(); ++c) {
+    const bool leaves =
+        is_leaving[key_body_a(keys[c])] || (!is_wall_kind(key_kind(keys[c])) && is_leaving[key_body_b(keys[c])]);
+    if (leaves) stored += elastic[c] + tangential[c];
+  }
+  return stored;
+}
+
+}  // namespace
+
+BodyEnergy body_energy(const Model& model, const State& state) {
+  const auto active = to_host(state.bodies.active);
+  const auto mass = to_host(model.bodies.mass);
+  const auto inertia = to_host(model.bodies.inertia);
+  const auto position = to_host(state.bodies.position);
+  const auto velocity = to_host(state.bodies.velocity);
+  const auto angular_velocity = to_host(state.bodies.angular_velocity);
+  BodyEnergy energy;
+  for (std::size_t i = 0; i < mass.size(); ++i) {
+    if (!active[i]) continue;
+    energy.kinetic += kinetic_energy(mass[i], velocity[i], inertia[i], angular_velocity[i]);
+    energy.gravitational -= mass[i] * dot(model.scene.gravity, position[i]);
+  }
+  return energy;
+}
+
+void remove_bodies(const Model& model, State& state, const std::vector<int>& is_leaving) {
+  const BodyEnergy before = body_energy(model, state);
+  auto active = to_host(state.bodies.active);
+  for (std::size_t i = 0; i < active.size(); ++i)
+    if (is_leaving[i]) active[i] = 0;
+  assign(state.bodies.active, active);
+  const BodyEnergy after = body_energy(model, state);
+  state.accounts.removed_energy += before.kinetic - after.kinetic + before.gravitational - after.gravitational +
+                                   stored_in_contacts(state, is_leaving);
+  state.list_is_stale = true;
+}
+
+EnergyLedger make_ledger(const Model& model, State& state) {
+  EnergyLedger ledger;
+  if (!model.features.has_ledger) return ledger;
+  collect_accounts(model, state);
+  const Accounts& accounts = state.accounts;
+  const BodyEnergy energy = body_energy(model, state);
+  ledger.kinetic = energy.kinetic;
+  ledger.gravitational = energy.gravitational - accounts.initial_gravitational;
+  ledger.elastic_normal = sum(to_host(state.contacts.elastic_work));
+  ledger.elastic_tangential = sum(to_host(state.contacts.tangential_energy));
+  ledger.wall_work = sum(accounts.wall_work);
+  ledger.removed = accounts.removed_energy;
+  ledger.initial = accounts.initial_kinetic;
+  for (std::size_t k = 0; k < model.classes.size(); ++k)
+    ledger.dissipation.push_back({model.classes[k], accounts.loss_normal[k], accounts.loss_shear[k]});
+  // The energy of removed bodies counts gravity down to where they left.
+  const double released = -ledger.gravitational - std::min(0.0, accounts.removed_energy);
+  ledger.throughput = ledger.initial + std::max(0.0, released) + std::max(0.0, ledger.wall_work);
+  return ledger;
+}
+
+double EnergyLedger::dissipated() const {
+  double total = 0;
+  for (const ClassLoss& loss : dissipation) total += loss.normal + loss.shear;
+  return total;
+}
+
+double EnergyLedger::imbalance() const {
+  return initial + wall_work - (kinetic + gravitational + elastic_normal + elastic_tangential + removed + dissipated());
+}
+
+void collect_accounts(const Model& model, State& state) {
+  ContactColumns& contacts = state.contacts;
+  const auto keys = to_host(contacts.key);
+  const auto class_of = [&](std::size_t c) {
+    return is_wall_kind(key_kind(keys[c])) ? model.wall_class[key_body_b(keys[c])] : 0;
+  };
+  Accounts& accounts = state.accounts;
+  const auto overlap = to_host(contacts.peak_overlap);
+  const auto rate = to_host(contacts.peak_rate);
+  for (std::size_t c = 0; c < overlap.size(); ++c) {
+    accounts.largest_overlap = std::max(accounts.largest_overlap, static_cast<double>(overlap[c]));
+    accounts.largest_rate = std::max(accounts.largest_rate, static_cast<double>(rate[c]));
+  }
+  fill(contacts.peak_overlap, Real(0));
+  fill(contacts.peak_rate, Real(0));
+  if (model.features.has_ledger) {
+    const auto normal = to_host(contacts.loss_normal);
+    const auto shear = to_host(contacts.loss_shear);
+    const auto work = to_host(contacts.wall_work);
+    for (std::size_t c = 0; c < keys.size(); ++c) {
+      accounts.loss_normal[class_of(c)] += normal[c];
+      accounts.loss_shear[class_of(c)] += shear[c];
+      if (is_wall_kind(key_kind(keys[c]))) accounts.wall_work[key_body_b(keys[c])] += work[c];
+    }
+    for (DeviceVector<Real>* column : {&contacts.loss_normal, &contacts.loss_shear, &contacts.wall_work})
+      fill(*column, Real(0));
+  }
+  if (model.features.has_walls) {
+    const auto impulse = to_host(contacts.wall_impulse);
+    const auto angular = to_host(contacts.wall_angular_impulse);
+    for (std::size_t c = 0; c < keys.size(); ++c) {
+      if (!is_wall_kind(key_kind(keys[c]))) continue;
+      accounts.wall_impulse[key_body_b(keys[c])] += impulse[c];
+      accounts.wall_angular_impulse[key_body_b(keys[c])] += angular[c];
+    }
+    for (DeviceVector<Vec3>* column : {&contacts.wall_impulse, &contacts.wall_angular_impulse}) fill(*column, Vec3{});
+  }
+}
+
+}  // namespace dem_gpu

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+
+#include "dem_gpu/bodies/model_state.h"
+
+namespace dem_gpu {
+
+/// Every column and account of the state, bit for bit, with a fingerprint of the scene. The last checkpoint becomes
+/// checkpoint_previous.h5.
+void write_checkpoint_file(const std::filesystem::path& run_folder, const Model& model, const State& state);
+
+/// Replaces the state by the last checkpoint, or by the previous one if the last cannot be read. Throws
+/// catalog::InputError if neither can, or if it belongs to another scene, version or precision.
+void read_checkpoint_file(const std::filesystem::path& run_folder, const Model& model, State& state);
+
+}  // namespace dem_gpu

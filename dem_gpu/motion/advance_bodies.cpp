@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dem_gpu/bodies/model_state.h"
+#include "dem_gpu/core/parallel.h"
+#include "dem_gpu/motion/motion_passes.h"
+#include "dem_gpu/motion/rigid_body.h"
+
+namespace dem_gpu {
+namespace {
+
+struct AdvanceBody {
+  BodyView bodies;
+  Real time_step;  // [s]
+
+  TALUS_HD void operator()(int i) const {
+    if (!bodies.active[i]) return;
+    const Real half = time_step / 2;
+    const Vec3 kick = (half / bodies.mass[i]) * bodies.force[i];
+    const Vec3 velocity = bodies.velocity[i] + kick;
+    bodies.position[i] += time_step * velocity;
+    bodies.velocity[i] = velocity;
+    bodies.mean_velocity[i] = velocity;
+    bodies.predicted_velocity[i] = velocity + kick;
+
+    const Vec3 inertia = bodies.inertia[i];
+    const Quaternion before = bodies.orientation[i];
+    Quaternion after = before;
+    Vec3 momentum = hadamard(inertia, bodies.angular_velocity[i]) + half * rotate_back(before, bodies.torque[i]);
+    rotate_freely(after, momentum, inertia, time_step);
+    bodies.orientation[i] = after;
+    bodies.angular_velocity[i] = over(momentum, inertia);
+    bodies.mean_angular_velocity[i] = mean_angular_velocity(before, after, time_step);
+    const Vec3 predicted = momentum + half * rotate_back(after, bodies.torque[i]);
+    bodies.predicted_angular_velocity[i] = rotate(after, over(predicted, inertia));
+    bodies.listed_displacement[i] = displacement(i, velocity);
+  }
+
+  TALUS_HD static Vec3 over(const Vec3& a, const Vec3& b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
+
+  /// Infinite for a body that is lost: not finite, or faster than half its radius a step.
+  TALUS_HD Real displacement(int i, const Vec3& velocity) const {
+    const Real distance = norm(bodies.position[i] - bodies.listed_position[i]);
+    const Real travel = time_step * norm(velocity);
+    const bool is_sound = distance < Real(1e300) && travel < bodies.bounding_radius[i] / 2 &&
+                          norm_squared(bodies.angular_velocity[i]) < Real(1e300);
+    return is_sound ? distance : Real(HUGE_VAL);
+  }
+};
+
+class AdvanceBodies : public Pass {
+ public:
+  std::string name() const override { return "advance_bodies"; }
+  void run(const Model& model, State& state) override {
+    const BodyView bodies = view(model.bodies, state.bodies);
+    parallel_for(0, bodies.count, AdvanceBody{bodies, model.time_step});
+    ++state.step;
+  }
+};
+
+class AdvanceWalls : public Pass {
+ public:
+  std::string name() const override { return "advance_walls"; }
+  void run(const Model& model, State& state) override {
+    if (state.walls.move_to(state.time(model))) state.list_is_stale = true;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Pass> make_advance_bodies_pass() { return std::make_unique<AdvanceBodies>(); }
+std::unique_ptr<Pass> make_advance_walls_pass() { return std::make_unique<AdvanceWalls>(); }
+
+}  // namespace dem_gpu

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dem_gpu/bodies/model_state.h"
+#include "dem_gpu/core/parallel.h"
+#include "dem_gpu/energy/energy.h"
+#include "dem_gpu/motion/motion_passes.h"
+
+namespace dem_gpu {
+namespace {
+
+struct MarkLeaving {
+  BodyView bodies;
+  Outflow outflow;
+  int* leaving;
+
+  TALUS_HD void operator()(int i) const {
+    leaving[i] = bodies.active[i] && dot(bodies.position[i], outflow.direction) < outflow.height;
+  }
+};
+
+class OutflowPass : public Pass {
+ public:
+  std::string name() const override { return "outflow"; }
+  void run(const Model& model, State& state) override {
+    const BodyView bodies = view(model.bodies, state.bodies);
+    leaving_.resize(static_cast<std::size_t>(bodies.count));
+    parallel_for(0, bodies.count, MarkLeaving{bodies, *model.scene.outflow, pointer(leaving_)});
+    if (max_of(leaving_, 0) == 0) return;
+    remove_bodies(model, state, to_host(leaving_));
+  }
+
+ private:
+  DeviceVector<int> leaving_;
+};
+
+}  // namespace
+
+std::unique_ptr<Pass> make_outflow_pass() { return std::make_unique<OutflowPass>(); }
+
+}  // namespace dem_gpu

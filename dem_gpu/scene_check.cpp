@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "catalog/input_error.h"
+#include "catalog/triangle_mesh.h"
+#include "dem_gpu/scene.h"
+
+namespace dem_gpu {
+namespace {
+
+using catalog::InputError;
+
+/// Least contact area assumed for a body, over its equivalent diameter squared: a rounded body pressed in by 5 % of its
+/// diameter meets a plane over pi * 0.05 of it.
+constexpr Real kLeastContactArea = 0.16;
+/// Longest time step accepted, as a share of the shortest contact: beyond it restitution is off by 1 % and more.
+constexpr Real kFewestSteps = 5;
+
+bool is_positive(Real value) { return value > 0 && std::isfinite(value); }
+bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool is_unit(const Vec3& v) { return std::abs(norm(v) - 1) < 1e-6; }
+
+void demand(bool condition, const std::string& place, const std::string& what) {
+  if (!condition) throw InputError(place + ": " + what);
+}
+
+Real equivalent_diameter(const Shape& shape, Real scale) {
+  return scale * std::cbrt(6 * shape.volume / std::numbers::pi);
+}
+
+Real face_area(const catalog::ConvexPart& part, const catalog::ConvexFace& face) {
+  const auto at = [&](std::size_t c) {
+    const catalog::Point& p = part.vertices[face.vertices[c]];
+    return Vec3{p[0], p[1], p[2]};
+  };
+  Vec3 area;
+  for (std::size_t c = 2; c < face.vertices.size(); ++c) area += Real(0.5) * cross(at(c - 1) - at(0), at(c) - at(0));
+  return norm(area);
+}
+
+/// Largest flat contact of a body: its largest outer face, or the least area assumed [m2].
+Real largest_contact_area(const Shape& shape, Real scale) {
+  const Real diameter = equivalent_diameter(shape, scale);
+  Real largest = kLeastContactArea * diameter * diameter;
+  if (const auto* polyhedron = std::get_if<PolyhedralShape>(&shape.geometry))
+    for (const catalog::ConvexPart& part : polyhedron->parts)
+      for (const catalog::ConvexFace& face : part.faces)
+        if (face.kind == catalog::FaceKind::outer) largest = std::max(largest, scale * scale * face_area(part, face));
+  return largest;
+}
+
+Real mass_of(const Scene& scene, const Body& body) {
+  const Real scale = body.scale;
+  return scene.materials[body.material].density * scene.shapes[body.shape].volume * scale * scale * scale;
+}
+
+Real stiffness_per_area(const PolyhedralLaw& law) {
+  if (const auto* depth = std::get_if<DepthPotential>(&law)) return 2 * depth->stiffness;
+  return std::get<OverlapVolume>(law).stiffness;
+}
+
+/// Tangent stiffness of a sphere contact pressed in by 2 % of the radius [N/m].
+Real sphere_stiffness(const Scene& scene, const Body& body) {
+  if (const auto* linear = std::get_if<LinearSpring>(&scene.sphere_law)) return linear->stiffness;
+  const Material& material = scene.materials[body.material];
+  const Real radius = body.scale * std::get<SphereShape>(scene.shapes[body.shape].geometry).radius;
+  const Real modulus = material.youngs_modulus / (1 - material.poisson_ratio * material.poisson_ratio);
+  return Hertz{}.tangent_stiffness(Real(0.02) * radius, radius, modulus);
+}
+
+Real contact_stiffness(const Scene& scene, const Body& body) {
+  const Shape& shape = scene.shapes[body.shape];
+  if (std::holds_alternative<SphereShape>(shape.geometry)) return sphere_stiffness(scene, body);
+  return stiffness_per_area(scene.polyhedral_law) * largest_contact_area(shape, body.scale);
+}
+
+struct CheckWall {
+  std::string place;
+
+  void operator()(const Plane& plane) const {
+    demand(is_unit(plane.normal) && is_finite(plane.point), place, "normal must be a unit vector");
+  }
+  void operator()(const Disc& disc) const {
+    demand(is_unit(disc.normal), place, "normal must be a unit vector");
+    demand(is_positive(disc.radius), place, "radius must be positive");
+  }
+  void operator()(const Cylinder& cylinder) const {
+    demand(is_unit(cylinder.axis), place, "axis must be a unit vector");
+    demand(is_positive(cylinder.radius) && is_positive(cylinder.length), place, "radius and length must be positive");
+  }
+  void operator()(const Cone& cone) const {
+    demand(is_unit(cone.axis), place, "axis must be a unit vector");
+    demand(cone.base_radius >= 0 && cone.top_radius >= 0 && is_positive(cone.length), place,
+           "radii must not be negative and length must be positive");
+    demand(cone.base_radius > 0 || cone.top_radius > 0, place, "one of the radii must be positive");
+  }
+  void operator()(const VolumeObject& object) const {
+    try {
+      polyhedral_shape("block", {object.part});
+    } catch (const InputError& error) {
+      throw InputError(place + ": not a convex solid (" + error.what() + ")");
+    }
+  }
+};
+
+void check_materials(const Scene& scene) {
+  demand(!scene.materials.empty(), "materials", "at least one is needed");
+  for (const Material& material : scene.materials)
+    demand(is_positive(material.density) && is_positive(material.youngs_modulus), "material '" + material.name + "'",
+           "density and Young's modulus must be positive");
+  demand(scene.contact.size() == scene.materials.size(), "contact", "one row a material is needed");
+  for (std::size_t i = 0; i < scene.contact.size(); ++i) {
+    demand(scene.contact[i].size() == scene.materials.size(), "contact", "one column a material is needed");
+    for (std::size_t j = 0; j < scene.contact.size(); ++j) {
+      const std::string place = "contact of '" + scene.materials[i].name + "' with '" + scene.materials[j].name + "'";
+      const ContactProperties& properties = scene.contact[i][j];
+      demand(properties.restitution >= Real(0.01) && properties.restitution <= 1, place,
+             "restitution must lie in 0.01 .. 1");
+      demand(properties.friction_coefficient >= 0 && std::isfinite(properties.friction_coefficient), place,
+             "friction must not be negative");
+    }
+  }
+}
+
+void check_bodies(const Scene& scene) {
+  demand(!scene.bodies.empty(), "scene '" + scene.name + "'", "no bodies; a [[fill]] is needed");
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const Body& body = scene.bodies[i];
+    const std::string place = "body " + std::to_string(i);
+    demand(body.shape >= 0 && body.shape < static_cast<int>(scene.shapes.size()), place, "no such shape");
+    demand(body.material >= 0 && body.material < static_cast<int>(scene.materials.size()), place, "no such material");
+    demand(is_positive(body.scale), place, "size must be positive");
+    demand(is_finite(body.position) && is_finite(body.velocity) && is_finite(body.angular_velocity), place,
+           "position and velocity must be finite");
+  }
+}
+
+void check_walls(const Scene& scene) {
+  std::set<std::string> names;
+  for (const Wall& wall : scene.walls) {
+    const std::string place = "wall '" + wall.name + "'";
+    demand(names.insert(wall.name).second, place, "there are two of that name");
+    demand(wall.material >= 0 && wall.material < static_cast<int>(scene.materials.size()), place, "no such material");
+    std::visit(CheckWall{place}, wall.geometry);
+  }
+}
+
+bool has_shape(const Scene& scene, bool sphere) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
+    return std::holds_alternative<SphereShape>(scene.shapes[body.shape].geometry) == sphere;
+  });
+}
+
+void check_run(const Scene& scene) {
+  if (has_shape(scene, false))
+    demand(is_positive(stiffness_per_area(scene.polyhedral_law)), "contact law of polyhedra",
+           "stiffness must be positive");
+  if (const auto* linear = std::get_if<LinearSpring>(&scene.sphere_law); linear && has_shape(scene, true))
+    demand(is_positive(linear->stiffness), "contact law of spheres", "stiffness must be positive");
+  demand(scene.run.end_time >= 0 && scene.run.time_step >= 0, "run", "times must not be negative");
+  const Real shortest = shortest_contact_time(scene);
+  if (scene.run.time_step > shortest / kFewestSteps)
+    throw InputError(
+        "run: time step " + std::to_string(scene.run.time_step * 1e6) + " us is too long: the shortest contact takes " +
+        std::to_string(shortest * 1e6) + " us and needs at least " + std::to_string(static_cast<int>(kFewestSteps)) +
+        " steps; use at most " + std::to_string(shortest / 20 * 1e6) + " us (20 steps), or a softer contact law");
+}
+
+}  // namespace
+
+void check(const Scene& scene) {
+  check_materials(scene);
+  check_bodies(scene);
+  check_walls(scene);
+  check_run(scene);
+}
+
+Real shortest_contact_time(const Scene& scene) {
+  Real shortest = std::numeric_limits<Real>::max();
+  for (const Body& body : scene.bodies) {
+    const Real effective_mass = mass_of(scene, body) / 2;  // against its like
+    shortest = std::min(shortest, std::numbers::pi * std::sqrt(effective_mass / contact_stiffness(scene, body)));
+  }
+  return shortest;
+}
+
+Real time_step(const Scene& scene) {
+  return scene.run.time_step > 0 ? scene.run.time_step : shortest_contact_time(scene) / scene.run.steps_per_contact;
+}
+
+Real stiffness_for_overlap(const Scene& scene, Real speed, Real largest_overlap) {
+  const Body* heaviest = nullptr;
+  for (const Body& body : scene.bodies)
+    if (std::holds_alternative<PolyhedralShape>(scene.shapes[body.shape].geometry) &&
+        (!heaviest || mass_of(scene, body) > mass_of(scene, *heaviest)))
+      heaviest = &body;
+  if (!heaviest) return 0;
+  const Shape& shape = scene.shapes[heaviest->shape];
+  const Real depth = largest_overlap * equivalent_diameter(shape, heaviest->scale);
+  // Flat impact on a wall: 1/2 m v^2 = 1/2 (share k A) d^2.
+  const Real share = std::holds_alternative<DepthPotential>(scene.polyhedral_law) ? 2 : 1;
+  return mass_of(scene, *heaviest) * speed * speed /
+         (share * largest_contact_area(shape, heaviest->scale) * depth * depth);
+}
+
+}  // namespace dem_gpu

@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dem_gpu/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <stdexcept>
+
+#include "dem_gpu/bodies/model_state.h"
+#include "dem_gpu/broad_phase/neighbour_list.h"
+#include "dem_gpu/contacts/contact_passes.h"
+#include "dem_gpu/core/parallel.h"
+#include "dem_gpu/energy/energy.h"
+#include "dem_gpu/io/checkpoint.h"
+#include "dem_gpu/step_builder.h"
+
+namespace dem_gpu {
+namespace {
+
+/// Skin of the neighbour list in mean body diameters.
+constexpr Real kSkinShare = 0.1;
+
+std::vector<Shape> shapes_with_objects(const Scene& scene) {
+  std::vector<Shape> shapes = scene.shapes;
+  for (const Wall& wall : scene.walls)
+    if (const auto* object = std::get_if<VolumeObject>(&wall.geometry)) {
+      // Volume objects stay in the world frame of time 0: their pose is their motion.
+      Shape shape = polyhedral_shape(wall.name, {object->part});
+      shape.geometry = PolyhedralShape{{object->part}};
+      shapes.push_back(std::move(shape));
+    }
+  return shapes;
+}
+
+Real depth_cap(const Scene& scene) {
+  const auto* law = std::get_if<DepthPotential>(&scene.polyhedral_law);
+  return law ? law->depth_cap : 1;
+}
+
+Real effective_modulus(const Material& a, const Material& b) {
+  return 1 / ((1 - a.poisson_ratio * a.poisson_ratio) / a.youngs_modulus +
+              (1 - b.poisson_ratio * b.poisson_ratio) / b.youngs_modulus);
+}
+
+std::vector<PairProperties> pair_properties(const Scene& scene) {
+  const std::size_t n = scene.materials.size();
+  std::map<Real, DampingRatios> solved;
+  std::vector<PairProperties> pairs(n * n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      const Real restitution = scene.contact[i][j].restitution;
+      if (!solved.contains(restitution)) solved[restitution] = damping_ratios(restitution);
+      pairs[i * n + j] = {solved[restitution], scene.contact[i][j].friction_coefficient,
+                          effective_modulus(scene.materials[i], scene.materials[j])};
+    }
+  return pairs;
+}
+
+void set_bodies(const Scene& scene, BodyConstants& constants, BodyColumns& columns) {
+  const std::size_t n = scene.bodies.size();
+  const HostShapeColumns shapes = make_host_shape_columns(scene.shapes, 1);
+  std::vector<int> shape(n), material(n);
+  std::vector<Real> scale(n), mass(n), radius(n), diameter(n);
+  std::vector<Vec3> inertia(n), position(n), velocity(n), angular_velocity(n);
+  std::vector<Quaternion> orientation(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Body& body = scene.bodies[i];
+    const ShapeRange& range = shapes.shapes[body.shape];
+    const Real s = body.scale, density = scene.materials[body.material].density;
+    shape[i] = body.shape;
+    material[i] = body.material;
+    scale[i] = s;
+    mass[i] = density * range.volume * s * s * s;
+    inertia[i] = (density * s * s * s * s * s) * range.inertia;
+    radius[i] = s * range.bounding_radius;
+    diameter[i] = s * range.equivalent_diameter;
+    position[i] = body.position;
+    orientation[i] = normalized(body.orientation);
+    velocity[i] = body.velocity;
+    angular_velocity[i] = rotate_back(orientation[i], body.angular_velocity);
+  }
+  assign(constants.shape, shape);
+  assign(constants.material, material);
+  assign(constants.scale, scale);
+  assign(constants.mass, mass);
+  assign(constants.inertia, inertia);
+  assign(constants.bounding_radius, radius);
+  assign(constants.diameter, diameter);
+  columns.active.assign(n, 1);
+  assign(columns.position, position);
+  assign(columns.orientation, orientation);
+  assign(columns.velocity, velocity);
+  assign(columns.angular_velocity, angular_velocity);
+  for (DeviceVector<Vec3>* column :
+       {&columns.force, &columns.torque, &columns.predicted_velocity, &columns.predicted_angular_velocity,
+        &columns.mean_velocity, &columns.mean_angular_velocity, &columns.listed_position})
+    column->assign(n, Vec3{});
+  columns.listed_displacement.assign(n, Real(0));
+  std::vector<Vec3> force(n);
+  for (std::size_t i = 0; i < n; ++i) force[i] = mass[i] * scene.gravity;
+  assign(columns.force, force);
+}
+
+void set_classes(const Scene& scene, Model& model) {
+  model.classes = {"particle-particle"};
+  for (const Wall& wall : scene.walls) {
+    const std::string name = "particle-" + (wall.contact_class.empty() ? wall.name : wall.contact_class);
+    auto found = std::find(model.classes.begin(), model.classes.end(), name);
+    if (found == model.classes.end()) found = model.classes.insert(model.classes.end(), name);
+    model.wall_class.push_back(static_cast<int>(found - model.classes.begin()));
+  }
+}
+
+Model make_model(const Scene& scene, BodyColumns& columns) {
+  Model model;
+  model.scene = scene;
+  model.shapes = make_shape_columns(shapes_with_objects(scene), depth_cap(scene));
+  set_bodies(scene, model.bodies, columns);
+  assign(model.pairs, pair_properties(scene));
+  model.material_count = static_cast<int>(scene.materials.size());
+  for (const Body& body : scene.bodies)
+    model.body_is_sphere.push_back(std::holds_alternative<SphereShape>(scene.shapes[body.shape].geometry));
+  model.features.has_friction = scene.friction.has_value();
+  model.features.has_ledger = scene.energy_ledger;
+  model.features.has_walls = !scene.walls.empty();
+  model.features.has_polyhedra =
+      std::find(model.body_is_sphere.begin(), model.body_is_sphere.end(), 0) != model.body_is_sphere.end();
+  model.time_step = time_step(scene);
+  Real mean_diameter = 0;
+  for (const Real diameter : to_host(model.bodies.diameter)) mean_diameter += diameter;
+  model.skin = kSkinShare * mean_diameter / static_cast<Real>(scene.bodies.size());
+  set_classes(scene, model);
+  return model;
+}
+
+}  // namespace
+
+struct Simulation::Engine {
+  BodyColumns initial_bodies;
+  Model model;
+  State state;
+  std::vector<std::unique_ptr<Pass>> passes;
+  mutable std::string last_error;
+
+  explicit Engine(const Scene& scene)
+      : model(make_model(scene, initial_bodies)),
+        state{0,
+              std::move(initial_bodies),
+              {},
+              {},
+              {},
+              {},
+              WallSet(scene, static_cast<int>(scene.shapes.size())),
+              0,
+              true,
+              {}},
+        passes(build_step(scene)) {
+    Accounts& accounts = state.accounts;
+    accounts.loss_normal.assign(model.classes.size(), 0);
+    accounts.loss_shear.assign(model.classes.size(), 0);
+    accounts.wall_work.assign(scene.walls.size(), 0);
+    accounts.wall_impulse.assign(scene.walls.size(), Vec3{});
+    accounts.wall_angular_impulse.assign(scene.walls.size(), Vec3{});
+    const BodyEnergy energy = body_energy(model, state);
+    accounts.initial_kinetic = energy.kinetic;
+    accounts.initial_gravitational = energy.gravitational;
+  }
+
+  void refuse_truncated_polygons() const {
+    const auto truncated = to_host(state.contacts.is_truncated);
+    for (std::size_t c = 0; c < truncated.size(); ++c)
+      if (truncated[c]) {
+        const ContactKey key = state.contacts.key[c];
+        throw std::runtime_error("step " + std::to_string(state.step) + ": the overlap of body " +
+                                 std::to_string(key_body_a(key)) + " with " + std::to_string(key_body_b(key)) +
+                                 " has a face of more corners than the engine holds; use a level with fewer vertices");
+      }
+  }
+};
+
+Simulation::Simulation(const Scene& scene) {
+  check(scene);
+  engine_ = std::make_unique<Engine>(scene);
+}
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+
+void Simulation::advance(std::int64_t steps) {
+  for (std::int64_t i = 0; i < steps; ++i)
+    for (const auto& pass : engine_->passes) pass->run(engine_->model, engine_->state);
+  engine_->state.accounts.wall_load_time += static_cast<double>(steps) * engine_->model.time_step;
+  engine_->refuse_truncated_polygons();
+}
+
+double Simulation::time() const { return engine_->state.time(engine_->model); }
+double Simulation::time_step() const { return engine_->model.time_step; }
+std::int64_t Simulation::step() const { return engine_->state.step; }
+
+std::vector<std::string> Simulation::pass_names() const {
+  std::vector<std::string> names;
+  for (const auto& pass : engine_->passes) names.push_back(pass->name());
+  return names;
+}
+
+EnergyLedger Simulation::ledger() const { return make_ledger(engine_->model, engine_->state); }
+
+std::vector<WallLoad> Simulation::take_wall_loads() {
+  collect_accounts(engine_->model, engine_->state);
+  Accounts& accounts = engine_->state.accounts;
+  const double span = accounts.wall_load_time;
+  std::vector<WallLoad> loads(accounts.wall_impulse.size());
+  for (std::size_t w = 0; w < loads.size(); ++w) {
+    if (span > 0) {
+      loads[w].force = accounts.wall_impulse[w] / span;
+      loads[w].torque = accounts.wall_angular_impulse[w] / span;
+      const WallRecord& wall = engine_->state.walls.records()[w];
+      loads[w].power = -dot(loads[w].force, wall.velocity) - dot(loads[w].torque, wall.angular_velocity);
+    }
+    loads[w].work = accounts.wall_work[w];
+    accounts.wall_impulse[w] = accounts.wall_angular_impulse[w] = Vec3{};
+  }
+  accounts.wall_load_time = 0;
+  return loads;
+}
+
+RunQuality Simulation::quality() const {
+  collect_accounts(engine_->model, engine_->state);
+  const Accounts& accounts = engine_->state.accounts;
+  const double contact_time = accounts.largest_rate > 0 ? std::numbers::pi / std::sqrt(accounts.largest_rate) : 0;
+  return {accounts.largest_overlap, contact_time / engine_->model.time_step, accounts.list_rebuilds};
+}
+
+BulkState Simulation::bulk() const {
+  BulkState bulk;
+  const auto active = to_host(engine_->state.bodies.active);
+  const auto mass = to_host(engine_->model.bodies.mass);
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    (active[i] ? bulk.active_bodies : bulk.removed_bodies) += 1;
+    (active[i] ? bulk.active_mass : bulk.removed_mass) += mass[i];
+  }
+  for (const Real depth : to_host(engine_->state.contacts.depth)) bulk.contacts += depth > 0;
+  return bulk;
+}
+
+Snapshot Simulation::snapshot() const {
+  const State& state = engine_->state;
+  Snapshot snapshot;
+  snapshot.time = time();
+  snapshot.step = state.step;
+  snapshot.active = to_host(state.bodies.active);
+  snapshot.position = to_host(state.bodies.position);
+  snapshot.orientation = to_host(state.bodies.orientation);
+  snapshot.velocity = to_host(state.bodies.velocity);
+  snapshot.angular_velocity = to_host(state.bodies.angular_velocity);
+  for (std::size_t i = 0; i < snapshot.angular_velocity.size(); ++i)
+    snapshot.angular_velocity[i] = rotate(snapshot.orientation[i], snapshot.angular_velocity[i]);
+  for (int w = 0; w < state.walls.count(); ++w) {
+    snapshot.wall_translation.push_back(state.walls.translation(w));
+    snapshot.wall_rotation.push_back(state.walls.rotation(w));
+    snapshot.wall_present.push_back(state.walls.records()[w].is_present);
+  }
+  const auto keys = to_host(state.contacts.key);
+  const auto depth = to_host(state.contacts.depth);
+  const auto force = to_host(state.contacts.force);
+  const auto point = to_host(state.contacts.point);
+  for (std::size_t c = 0; c < keys.size(); ++c) {
+    if (!(depth[c] > 0)) continue;
+    const int b = key_body_b(keys[c]);
+    snapshot.contacts.push_back(
+        {key_body_a(keys[c]), is_wall_kind(key_kind(keys[c])) ? -1 - b : b, point[c], force[c], depth[c]});
+  }
+  return snapshot;
+}
+
+RunGeometry Simulation::geometry() const {
+  const Model& model = engine_->model;
+  RunGeometry geometry;
+  for (const Shape& shape : model.scene.shapes) {
+    ShapeGeometry entry{shape.name, 0, {}, shape.volume};
+    if (const auto* sphere = std::get_if<SphereShape>(&shape.geometry))
+      entry.sphere_radius = sphere->radius;
+    else
+      entry.parts = std::get<PolyhedralShape>(shape.geometry).parts;
+    geometry.shapes.push_back(std::move(entry));
+  }
+  for (const Material& material : model.scene.materials) {
+    geometry.materials.push_back(material.name);
+    geometry.material_density.push_back(material.density);
+  }
+  geometry.body_shape = to_host(model.bodies.shape);
+  geometry.body_material = to_host(model.bodies.material);
+  geometry.body_scale = to_host(model.bodies.scale);
+  geometry.body_mass = to_host(model.bodies.mass);
+  const WallSet at_start(model.scene, static_cast<int>(model.scene.shapes.size()));
+  for (std::size_t w = 0; w < model.scene.walls.size(); ++w) {
+    const Wall& wall = model.scene.walls[w];
+    const WallRecord& record = at_start.records()[w];
+    WallGeometry entry{wall.name,          wall.contact_class, record.kind,
+                       record.point,       record.direction,   record.length,
+                       record.base_radius, record.top_radius,  {}};
+    if (const auto* object = std::get_if<VolumeObject>(&wall.geometry)) entry.part = object->part;
+    geometry.walls.push_back(std::move(entry));
+  }
+  return geometry;
+}
+
+void Simulation::write_checkpoint(const std::filesystem::path& run_folder) const {
+  write_checkpoint_file(run_folder, engine_->model, engine_->state);
+}
+
+void Simulation::read_checkpoint(const std::filesystem::path& run_folder) {
+  read_checkpoint_file(run_folder, engine_->model, engine_->state);
+}
+
+}  // namespace dem_gpu
