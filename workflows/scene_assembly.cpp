@@ -169,8 +169,6 @@ void set_stiffness(const SceneDescription& description, Scene& scene) {
                                 ": contact_law: stiffness of polyhedra is missing; state stiffness = \"2e7 N/m3\""
                                 " or largest_overlap with at_speed");
     polyhedra = dem_gpu::stiffness_for_overlap(scene, choice.at_speed, *choice.largest_overlap);
-    // Flat on flat the depth potential gives 2 k A d, the volume law k A d.
-    if (std::holds_alternative<dem_gpu::OverlapVolume>(scene.polyhedral_law)) polyhedra *= 2;
   }
   std::visit([&](auto& law) { law.stiffness = polyhedra; }, scene.polyhedral_law);
 
