@@ -11,7 +11,7 @@ namespace catalog::sqlite {
 
 // How long a statement waits for another program's lock [ms]: longer than any store here takes, short enough to tell a
 // user who waits.
-constexpr int kBusyTimeout = 4000;
+constexpr int kBusyTimeout = 3000;
 
 /// An open SQLite file; closed on destruction. `flags` are SQLITE_OPEN_...
 class Database {
