@@ -85,9 +85,11 @@ class Parser {
     if (++depth_ > kDeepestNesting) fail(peek(), "is nested too deeply; at most " + std::to_string(kDeepestNesting));
     std::string sql;
     if (accept_keyword("not")) {
-      sql = "NOT " + negation();
+      sql = "NOT ";
+      sql += negation();
     } else if (accept_symbol("(")) {
-      sql = "(" + expression() + ")";
+      sql = "(";
+      sql += expression() + ")";
       expect_symbol(")");
     } else {
       sql = comparison();
