@@ -85,10 +85,10 @@ class Parser {
     if (++depth_ > kDeepestNesting) fail(peek(), "is nested too deeply; at most " + std::to_string(kDeepestNesting));
     std::string sql;
     if (accept_keyword("not")) {
-      sql = "NOT ";
+      sql += "NOT ";
       sql += negation();
     } else if (accept_symbol("(")) {
-      sql = "(";
+      sql += "(";
       sql += expression() + ")";
       expect_symbol(")");
     } else {
