@@ -6,7 +6,7 @@
 
 #include "catalog/shape_record.h"
 
-namespace talus_test_support {
+namespace test_support {
 
 /// Closed box from the origin's `low` corner to `high`, outward normals.
 inline catalog::TriangleMesh box_mesh(const catalog::Point& low, const catalog::Point& high) {
@@ -63,4 +63,4 @@ inline catalog::LevelOfDetail sample_level(const catalog::ShapeRecord& shape, in
   return level;
 }
 
-}  // namespace talus_test_support
+}  // namespace test_support

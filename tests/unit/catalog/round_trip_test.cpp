@@ -16,7 +16,7 @@
 namespace {
 
 using namespace catalog;
-using namespace talus_test_support;
+using namespace test_support;
 using Access = ShapeCatalog::Access;
 
 // Doubles compared by their bits: -0.0 differs from 0.0, and a NaN equals itself.
