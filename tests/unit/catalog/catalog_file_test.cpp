@@ -18,7 +18,7 @@
 namespace {
 
 using namespace catalog;
-using namespace talus_test_support;
+using namespace test_support;
 namespace fs = std::filesystem;
 using Access = ShapeCatalog::Access;
 

@@ -14,7 +14,7 @@
 namespace {
 
 using namespace catalog;
-using namespace talus_test_support;
+using namespace test_support;
 
 constexpr int kRounds = 40;
 

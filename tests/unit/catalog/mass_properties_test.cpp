@@ -12,7 +12,7 @@
 namespace {
 
 using namespace catalog;
-using namespace talus_test_support;
+using namespace test_support;
 
 // Rounding of sums over some tens of faces, relative.
 constexpr double kRounding = 1e-13;

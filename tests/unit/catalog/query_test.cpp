@@ -13,7 +13,7 @@
 namespace {
 
 using namespace catalog;
-using namespace talus_test_support;
+using namespace test_support;
 
 /// Four shapes: rock_1, rock_2, rock_3 of scale 1, 2, 3, and "it's" of scale 1 without sphericity.
 class Query : public testing::Test {
@@ -170,7 +170,7 @@ TEST_F(Query, LongestAllowedQueriesRun) {
   for (int i = 1; i < 400; ++i) chain += i % 2 ? " or sphericity_wadell < 0" : " and not volume < 0";
   EXPECT_NO_THROW(catalog_->select(chain));
   // As many open operators before each parenthesis as the grammar allows.
-  std::string nested = "volume < 0 or volume < 0 and not not name not in ('a', 'b')";
+  std::string nested = "volume < 0 or volume < 0 and not name not in ('a', 'b')";
   for (int i = 0; i < 5; ++i) nested = "volume < 0 or volume < 0 and not (" + nested + ")";
   EXPECT_NO_THROW(catalog_->select(nested));
   std::string brackets = "sphericity_wadell in (1, 2)";

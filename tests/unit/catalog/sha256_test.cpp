@@ -34,7 +34,7 @@ TEST(Sha256, PaddingAtBlockEdges) {
 }
 
 TEST(Sha256, FileIsHashedInPieces) {
-  const talus_test_support::TemporaryFolder folder;
+  const test_support::TemporaryFolder folder;
   const std::string text(200001, 'x');  // several read buffers and a remainder
   std::ofstream(folder / "scan.ply", std::ios::binary) << text;
   EXPECT_EQ(catalog::sha256_of_file(folder / "scan.ply"), hash(text));
