@@ -132,14 +132,25 @@ std::vector<ShapeSummary> sampled(const ShapeCatalog& catalog, const CatalogOpti
   return drawn;
 }
 
+/// The largest vertex cap that the shape has for a number of parts.
+int largest_cap(const ShapeSummary& shape, int parts_asked) {
+  int cap = 0;
+  std::string kept;
+  for (const auto& level : shape.levels) {
+    if (level.parts_asked == parts_asked) cap = std::max(cap, level.vertex_cap);
+    kept += " " + std::to_string(level.parts_asked);
+  }
+  if (cap == 0)
+    throw InputError("--level " + std::to_string(parts_asked) + ": " + shape.name + " has no such level; " +
+                     (kept.empty() ? "it has none, run talus decompose first" : "it has" + kept));
+  return cap;
+}
+
 ExportMesh export_mesh(const ShapeCatalog& catalog, const CatalogOptions& options) {
   const ShapeId id = id_of(catalog, options);
   if (options.level == 0) return {catalog.shape(id).mesh, {}};
-  int vertex_cap = options.vertex_cap;
-  if (vertex_cap == 0)
-    for (const auto& level : catalog.summary(id).levels)
-      if (level.parts_asked == options.level) vertex_cap = std::max(vertex_cap, level.vertex_cap);
-  return joined(catalog.level(id, options.level, vertex_cap).parts);
+  const int cap = options.vertex_cap > 0 ? options.vertex_cap : largest_cap(catalog.summary(id), options.level);
+  return joined(catalog.level(id, options.level, cap).parts);
 }
 
 void export_files(const ShapeCatalog& catalog, const CatalogOptions& options) {
