@@ -14,8 +14,9 @@
 namespace catalog::sqlite {
 namespace {
 
-// Well below SQLite's limits (expression depth 1000, 32766 parameters), so that the message is ours.
-constexpr int kDeepestNesting = 100;
+// Below SQLite's limits (parser stack 100, of which one nesting takes up to 6; expression depth 1000; 32766
+// parameters), so that the message is ours.
+constexpr int kDeepestNesting = 12;
 constexpr int kMostComparisons = 400;
 constexpr std::size_t kMostParameters = 10000;
 
@@ -70,13 +71,13 @@ class Parser {
  private:
   std::string expression() {
     std::string sql = conjunction();
-    while (accept_keyword("or")) sql = "(" + sql + " OR " + conjunction() + ")";
+    while (accept_keyword("or")) sql += " OR " + conjunction();
     return sql;
   }
 
   std::string conjunction() {
     std::string sql = negation();
-    while (accept_keyword("and")) sql = "(" + sql + " AND " + negation() + ")";
+    while (accept_keyword("and")) sql += " AND " + negation();
     return sql;
   }
 
@@ -84,9 +85,11 @@ class Parser {
     if (++depth_ > kDeepestNesting) fail(peek(), "is nested too deeply; at most " + std::to_string(kDeepestNesting));
     std::string sql;
     if (accept_keyword("not")) {
-      sql = "(NOT " + negation() + ")";
+      sql += "NOT ";
+      sql += negation();
     } else if (accept_symbol("(")) {
-      sql = expression();
+      sql += "(";
+      sql += expression() + ")";
       expect_symbol(")");
     } else {
       sql = comparison();

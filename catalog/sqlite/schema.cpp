@@ -29,6 +29,7 @@ void check_file_kind(const fs::path& path, bool writable) {
 
 void check_identity(const Database& database) {
   const std::string file = database.path().string();
+  if (single_integer(database, "PRAGMA page_count") == 0) database.fail(SQLITE_NOTADB);
   if (single_integer(database, "PRAGMA application_id") != kApplicationId)
     throw InputError(file + ": is an SQLite file of another application, not a Talus catalogue; give another file");
   const int version = schema_version(database);
@@ -76,7 +77,9 @@ void migrate(const Database& database, bool was_empty) {
 
 Database open_writable(const fs::path& path) {
   Database database(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-  const bool is_empty = single_integer(database, "PRAGMA page_count") == 0;
+  // SQLite takes a file of one byte for an empty one; it is somebody's file. The pages are counted first, since that
+  // rolls back what a killed writer left.
+  const bool is_empty = single_integer(database, "PRAGMA page_count") == 0 && fs::file_size(path) == 0;
   if (!is_empty) check_identity(database);
   if (database.is_read_only())
     throw InputError(path.string() + ": cannot be written; expected write permission for the file");

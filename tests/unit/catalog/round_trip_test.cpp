@@ -204,7 +204,7 @@ TEST(RoundTrip, SameStoresGiveTheSameBytes) {
     catalog.store_shape(sample_shape("b", 2));
     catalog.store_rejected({"d", "d.ply", "hash", "flat"});
   }
-  EXPECT_EQ(bytes_of(folder / "one.talus"), bytes_of(folder / "two.talus"));
+  EXPECT_TRUE(bytes_of(folder / "one.talus") == bytes_of(folder / "two.talus"));
 }
 
 TEST(RoundTrip, ThingsThatDoNotExistAreNamed) {
