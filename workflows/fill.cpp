@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "catalog/input_error.h"
+#include "workflows/dense_packing.h"
 #include "workflows/random_stream.h"
 
 namespace workflows {
@@ -125,30 +126,59 @@ std::vector<Point> lattice_cells(const FillRegion& region, Lattice lattice, doub
   return cells;
 }
 
+namespace {
+
+[[noreturn]] void refuse_full(const std::string& place, std::size_t held, std::size_t asked, double largest_radius) {
+  throw catalog::InputError(place + ": the region holds " + std::to_string(held) + " of the " + std::to_string(asked) +
+                            " bodies (the largest is " + millimetres(2 * largest_radius) +
+                            " across); enlarge the region or lower the count");
+}
+
+std::vector<Point> densely_placed(const FillRegion& region, const std::vector<double>& bounding_radii,
+                                  const FillLayout& layout, const Point& up, RandomStream& random,
+                                  const std::string& place) {
+  std::vector<std::size_t> order(bounding_radii.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  random.shuffle(order);
+  std::vector<double> radii;
+  for (const std::size_t body : order) radii.push_back(bounding_radii[body] * (1 + layout.clearance));
+  const std::vector<Point> centres = dense_packing(region, radii, up, random);
+  if (centres.size() < radii.size())
+    refuse_full(place, centres.size(), radii.size(), *std::max_element(bounding_radii.begin(), bounding_radii.end()));
+  std::vector<Point> placed(centres.size());
+  for (std::size_t i = 0; i < order.size(); ++i) placed[order[i]] = centres[i];
+  return placed;
+}
+
+std::vector<Point> placed_on_lattice(const FillRegion& region, const std::vector<double>& bounding_radii,
+                                     const FillLayout& layout, const Point& up, RandomStream& random,
+                                     const std::string& place) {
+  const double largest = *std::max_element(bounding_radii.begin(), bounding_radii.end());
+  const double spacing = 2 * largest * (1 + layout.clearance);
+  const Lattice lattice = layout.packing == Packing::cubic ? Lattice::cubic : Lattice::hexagonal;
+  std::vector<Point> cells = lattice_cells(region, lattice, spacing, up);
+  if (cells.size() < bounding_radii.size()) refuse_full(place, cells.size(), bounding_radii.size(), largest);
+  cells.resize(bounding_radii.size());
+  random.shuffle(cells);
+  for (std::size_t body = 0; body < cells.size(); ++body)
+    cells[body] = plus(cells[body], layout.jitter * (spacing / 2 - bounding_radii[body]), random.in_unit_ball<3>());
+  return cells;
+}
+
+}  // namespace
+
 std::vector<Placement> fill_region(const FillRegion& region, const std::vector<double>& bounding_radii,
                                    const FillLayout& layout, const Point& up, const std::string& place) {
   if (bounding_radii.empty()) return {};
   const double largest = *std::max_element(bounding_radii.begin(), bounding_radii.end());
-  const double spacing = 2 * largest * (1 + layout.clearance);
-  if (volume(region) / (spacing * spacing * spacing) > kMostCells)
+  if (volume(region) / (8 * largest * largest * largest) > kMostCells)
     throw catalog::InputError(place + ": the largest body is " + millimetres(2 * largest) +
                               " across, far too small for this region; check the units of sizes and region");
-
-  std::vector<Point> cells = lattice_cells(region, layout.lattice, spacing, up);
-  if (cells.size() < bounding_radii.size())
-    throw catalog::InputError(place + ": the region holds " + std::to_string(cells.size()) + " of the " +
-                              std::to_string(bounding_radii.size()) + " bodies, in cells " + millimetres(spacing) +
-                              " across (the largest body and the clearance); enlarge the region or lower the count");
-  cells.resize(bounding_radii.size());
-
   RandomStream random(layout.seed);
-  random.shuffle(cells);
+  const auto place_bodies = layout.packing == Packing::dense ? densely_placed : placed_on_lattice;
   std::vector<Placement> placements;
-  placements.reserve(cells.size());
-  for (std::size_t body = 0; body < cells.size(); ++body) {
-    const double room = layout.jitter * (spacing / 2 - bounding_radii[body]);
-    placements.push_back({plus(cells[body], room, random.in_unit_ball<3>()), random.rotation()});
-  }
+  for (const Point& position : place_bodies(region, bounding_radii, layout, up, random, place))
+    placements.push_back({position, random.rotation()});
   return placements;
 }
 

@@ -34,11 +34,14 @@ double volume(const FillRegion& region);  // [m3]
 
 enum class Lattice { hexagonal, cubic };
 
+/// `dense` sets each body on those below; the lattices give every body a cell of the largest one's size.
+enum class Packing { dense, hexagonal, cubic };
+
 /// How bodies are set into a region.
 struct FillLayout {
-  Lattice lattice = Lattice::hexagonal;
-  double clearance = 0.02;  // cell diameter over the largest bounding diameter, minus 1 [-]
-  double jitter = 1;        // share of the free room in its cell over which a body is displaced, 0..1 [-]
+  Packing packing = Packing::dense;
+  double clearance = 0.02;  // room about the bounding ball (lattices: the largest one), share of its diameter [-]
+  double jitter = 1;        // lattices: share of the free room in its cell over which a body is displaced, 0..1 [-]
   std::uint64_t seed = 1;
   friend bool operator==(const FillLayout&, const FillLayout&) = default;
 };
@@ -52,8 +55,8 @@ struct Placement {
 /// layer on layer along the unit vector `up`, lowest first, each from its middle outwards.
 std::vector<Point> lattice_cells(const FillRegion& region, Lattice lattice, double spacing, const Point& up);
 
-/// One placement for each bounding radius: bodies in random cells of the lowest that are needed, displaced within their
-/// cell, turned at random. Bounding balls neither overlap nor leave the region, since each stays in its cell's ball.
+/// One placement for each bounding radius, filling from below, bodies in random order and turned at random. Bounding
+/// balls neither overlap nor leave the region.
 /// Throws catalog::InputError that starts with `place` if the region holds fewer, with how many and the remedy.
 std::vector<Placement> fill_region(const FillRegion& region, const std::vector<double>& bounding_radii,
                                    const FillLayout& layout, const Point& up, const std::string& place);

@@ -144,7 +144,8 @@ Json fill_summary(const FillReport& report, const FillDescription& fill, const S
   json["bodies"] = report.bodies;
   json["mass"] = report.mass;
   json["region"] = json_of(fill.region);
-  json["lattice"] = fill.layout.lattice == Lattice::cubic ? "cubic" : "hexagonal";
+  constexpr const char* packings[] = {"dense", "hexagonal", "cubic"};
+  json["packing"] = packings[static_cast<std::size_t>(fill.layout.packing)];
   json["clearance"] = fill.layout.clearance;
   json["jitter"] = fill.layout.jitter;
   json["seed"] = fill.layout.seed;

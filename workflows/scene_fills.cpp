@@ -69,7 +69,8 @@ FillRegion read_region(TomlTable where) {
 
 FillLayout read_layout(TomlTable& table) {
   FillLayout layout;
-  if (table.has("lattice") && table.choice("lattice", {"hexagonal", "cubic"}) == 1) layout.lattice = Lattice::cubic;
+  constexpr Packing packings[] = {Packing::dense, Packing::hexagonal, Packing::cubic};
+  if (table.has("packing")) layout.packing = packings[table.choice("packing", {"dense", "hexagonal", "cubic"})];
   layout.clearance = table.quantity("clearance", Dimension::ratio, kNotNegative, layout.clearance);
   const Bounds share{0, 1, false, "from 0 to 1"};
   layout.jitter = table.quantity("jitter", Dimension::ratio, share, layout.jitter);

@@ -33,9 +33,9 @@ TEST(Fill, BallsNeitherOverlapNorLeaveTheRegion) {
   const std::vector<FillRegion> regions{kUpright, kLying, kLeaning, kBox};
   std::uint64_t seed = 1;
   for (const FillRegion& region : regions)
-    for (const Lattice lattice : {Lattice::hexagonal, Lattice::cubic}) {
+    for (const Packing packing : {Packing::dense, Packing::hexagonal, Packing::cubic}) {
       const std::vector<double> radii = random_radii(120, ++seed);
-      const FillLayout layout{lattice, 0.01, 1, seed};
+      const FillLayout layout{packing, 0.01, 1, seed};
       const std::vector<Placement> placements = fill_region(region, radii, layout, kUp, "fill");
       ASSERT_EQ(placements.size(), radii.size());
       for (std::size_t i = 0; i < radii.size(); ++i) {
@@ -89,8 +89,10 @@ TEST(Fill, SameSeedSamePlacesOtherSeedOthers) {
 
 TEST(Fill, RefusesWhatDoesNotFitWithTheNumberThatDoes) {
   const std::size_t fits = lattice_cells(kBox, Lattice::hexagonal, 2 * 0.05 * 1.02, kUp).size();
+  FillLayout layout;
+  layout.packing = Packing::hexagonal;
   try {
-    fill_region(kBox, std::vector<double>(500, 0.05), {}, kUp, "scene.toml:9:1: fill \"ore\"");
+    fill_region(kBox, std::vector<double>(500, 0.05), layout, kUp, "scene.toml:9:1: fill \"ore\"");
     FAIL() << "not refused";
   } catch (const catalog::InputError& error) {
     EXPECT_NE(
@@ -99,7 +101,23 @@ TEST(Fill, RefusesWhatDoesNotFitWithTheNumberThatDoes) {
         std::string::npos)
         << error.what();
   }
+  EXPECT_THROW(fill_region(kBox, std::vector<double>(500, 0.05), {}, kUp, "fill"), catalog::InputError);
+  EXPECT_THROW(fill_region(kBox, {0.5}, {}, kUp, "fill"), catalog::InputError);   // larger than the region
   EXPECT_THROW(fill_region(kBox, {1e-6}, {}, kUp, "fill"), catalog::InputError);  // micrometres in a box of metres
+}
+
+TEST(Fill, DensePackingOfMixedSizesStandsLowerThanTheLattice) {
+  const CylinderRegion tall{{0, 0, 0}, kUp, 0.2, 5};
+  const std::vector<double> radii = random_radii(600, 11);  // 10 to 20 mm
+  const auto height = [&](Packing packing) {
+    FillLayout layout;
+    layout.packing = packing;
+    double highest = 0;
+    for (const Placement& placement : fill_region(tall, radii, layout, kUp, "fill"))
+      highest = std::max(highest, placement.position[2]);
+    return highest;
+  };
+  EXPECT_LT(height(Packing::dense), 0.8 * height(Packing::hexagonal));
 }
 
 TEST(RandomStream, RotationsAreUniform) {
