@@ -13,6 +13,7 @@
 #include "shape_pipeline/meshes/soup_orientation.h"
 #include "shape_pipeline/point_cloud.h"
 #include "shape_pipeline/solid_checks.h"
+#include "shape_pipeline/surface_reconstruction.h"
 #include "shape_pipeline/surfaces/alpha_wrap.h"
 #include "shape_pipeline/surfaces/cloud_projection.h"
 #include "shape_pipeline/surfaces/vector3.h"
@@ -21,14 +22,14 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr double kWeldDistance = 1e-6;           // of the diagonal: single-precision files differ by less
-constexpr int kElementLimit = 4000;              // surface elements of the winding number: 1 % at half a second
-constexpr double kLeastHullRatio = 0.2;          // a closed mesh may be a thin or hollow-cheeked particle
-constexpr double kLargestRecut = 0.005;          // relative volume change that removing self-intersections may cause
-constexpr double kLargestFilledShare = 0.2;      // of the area: more than this is invention, not repair
-constexpr double kLeastKeptShare = 0.9;          // of the area that the largest surface must have to stand for the scan
-constexpr double kAlphaParts[] = {100, 50, 25};  // alpha = diagonal / parts, fine to coarse
-constexpr double kOffsetPart = 1.0 / 30;         // offset / alpha
+constexpr double kWeldDistance = 1e-6;       // of the diagonal: single-precision files differ by less
+constexpr int kElementLimit = 4000;          // surface elements of the winding number: 1 % at half a second
+constexpr double kLeastHullRatio = 0.2;      // a closed mesh may be a thin or hollow-cheeked particle
+constexpr double kLargestRecut = 0.005;      // relative volume change that removing self-intersections may cause
+constexpr double kLargestFilledShare = 0.2;  // of the area: more than this is invention, not repair
+constexpr double kLeastKeptShare = 0.9;      // of the area that the largest surface must have to stand for the scan
+constexpr double kAlphaParts[] = {90, 65, 45, 30};  // alpha = diagonal / parts, fine to coarse
+constexpr double kOffsetPart = 1.0 / 30;            // offset / alpha
 
 /// The steps so far, with the mesh in work.
 struct Repair {
@@ -122,6 +123,14 @@ PointCloud as_cloud(const catalog::TriangleMesh& mesh) {
   return cloud;
 }
 
+/// Poisson surface of the mesh's vertices, for a mesh of many holes or of tangled shells.
+Reconstruction rebuilt_from_vertices(const catalog::TriangleMesh& mesh, int genus) {
+  ReconstructionOptions options;
+  options.method = ReconstructionMethod::poisson;
+  options.genus = genus;
+  return reconstruct_surface(as_cloud(mesh), options);
+}
+
 }  // namespace
 
 RepairedMesh repair_mesh(const catalog::TriangleMesh& scanned, const RepairOptions& options) {
@@ -158,28 +167,42 @@ RepairedMesh repair_mesh(const catalog::TriangleMesh& scanned, const RepairOptio
     return result;
   }
 
-  std::string tried = "repair: " + failures(decisive);
+  const std::string flaws = failures(decisive);
+  const std::string replaced = options.wrapping == Wrapping::always ? "" : "repair left " + flaws;
+  std::string tried = flaws;
+  if (options.wrapping == Wrapping::where_repair_fails) {
+    Reconstruction rebuilt = rebuilt_from_vertices(all_surfaces, options.genus);
+    // Where the mesh's own normals contradict its vertices, its patches are turned at random: nothing to build on.
+    const bool is_oriented = std::all_of(rebuilt.checks.begin(), rebuilt.checks.end(), [](const catalog::Check& check) {
+      return check.name != "given_normals" || check.passed;
+    });
+    if (!is_oriented) rebuilt.refusal = "its faces are not turned alike";
+    if (rebuilt.refusal.empty()) {
+      result.mesh = std::move(rebuilt.mesh);
+      result.checks.push_back({"repaired_solid", false, 0, replaced + "; rebuilt from its vertices instead"});
+      result.checks.insert(result.checks.end(), rebuilt.checks.begin(), rebuilt.checks.end());
+      return result;
+    }
+    tried += "; " + rebuilt.refusal;
+  }
   if (options.wrapping != Wrapping::never) {
     expectation.second_volume = winding_volume(surface_elements(all_surfaces, kElementLimit));
-    const PointCloud cloud = as_cloud(all_surfaces);
-    const double diagonal = bounding_diagonal(all_surfaces.vertices), spacing = mean_edge_length(all_surfaces);
+    std::string wrap_flaws;
     for (const double parts : kAlphaParts) {
-      const double alpha = diagonal / parts;
-      const catalog::TriangleMesh wrap =
-          projected_to_cloud(alpha_wrap(all_surfaces, alpha, kOffsetPart * alpha), cloud, spacing);
+      const double alpha = bounding_diagonal(all_surfaces.vertices) / parts;
+      const catalog::TriangleMesh wrap = projected_to_cloud(alpha_wrap(all_surfaces, alpha, kOffsetPart * alpha),
+                                                            as_cloud(all_surfaces), mean_edge_length(all_surfaces));
       verdict = solid_checks(wrap, expectation);
-      if (all_passed(verdict)) {
-        result.mesh = wrap;
-        if (options.wrapping != Wrapping::always)
-          result.checks.push_back({"repaired_solid", false, 0, tried + "; alpha wrap taken instead"});
-        result.checks.push_back({"repair_alpha_wrap", true, alpha, "radius of the carving ball [m]"});
-        result.checks.insert(result.checks.end(), verdict.begin(), verdict.end());
-        return result;
-      }
-      char label[60];
-      std::snprintf(label, sizeof label, " | alpha wrap at diagonal / %.0f: ", parts);
-      tried += label + failures(verdict);
+      wrap_flaws = failures(verdict);
+      if (!wrap_flaws.empty()) continue;
+      result.mesh = wrap;
+      if (!replaced.empty())
+        result.checks.push_back({"repaired_solid", false, 0, replaced + "; alpha wrap taken instead"});
+      result.checks.push_back({"repair_alpha_wrap", true, alpha, "radius of the carving ball [m]"});
+      result.checks.insert(result.checks.end(), verdict.begin(), verdict.end());
+      return result;
     }
+    tried += "; even the coarsest alpha wrap: " + wrap_flaws;
   }
   result.refusal = "the mesh cannot be made one right solid (" + tried + ")";
   return result;

@@ -30,6 +30,8 @@ constexpr double kAlphaPartsFine = 50;    // alpha = diagonal / parts, tried fro
 constexpr double kAlphaPartsCoarse = 15;  // slips through a gap fails its volume check, a coarse one bridges hollows
 constexpr double kAlphaStep = 1.4;
 constexpr double kOffsetPart = 1.0 / 30;  // offset / alpha: the wrap is drawn onto the cloud afterwards
+constexpr double kGapDistance = 4;        // of a face to the nearest point / spacing, from which it spans a gap
+constexpr double kLargestGapShare = 0.2;  // of the area: a surface invented beyond this is no scan
 constexpr double kTrustedDistance = 0.5;  // mean distance of the cloud to its surface / spacing
 
 std::string text(const char* format, double a, double b = 0) {
@@ -82,6 +84,27 @@ struct Candidate {
   std::vector<catalog::Check> checks;
 };
 
+/// Share of the area of faces that are far from every point.
+catalog::Check gap_check(const catalog::TriangleMesh& mesh, const PointCloud& cloud, double spacing) {
+  std::vector<Point> centres;
+  for (const catalog::Triangle& face : mesh.faces)
+    centres.push_back(
+        scaled(add(add(mesh.vertices[face[0]], mesh.vertices[face[1]]), mesh.vertices[face[2]]), 1.0 / 3));
+  const auto nearest = nearest_points(cloud.points, centres, 1);
+  double gap_area = 0, area = 0;
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const Point& origin = mesh.vertices[mesh.faces[f][0]];
+    const double face_area = norm(
+        cross(subtract(mesh.vertices[mesh.faces[f][1]], origin), subtract(mesh.vertices[mesh.faces[f][2]], origin)));
+    area += face_area;
+    if (distance(centres[f], cloud.points[nearest[f].front()]) > kGapDistance * spacing) gap_area += face_area;
+  }
+  const double share = gap_area / area;
+  return {"gap_area_share", share <= kLargestGapShare, share,
+          text("%.1f %% of the area spans gaps in the cloud, expected at most %.0f %%", 100 * share,
+               100 * kLargestGapShare)};
+}
+
 Candidate judged(catalog::TriangleMesh mesh, const std::string& method, const PointCloud& cloud, double spacing,
                  const SolidExpectation& expectation) {
   Candidate candidate;
@@ -96,6 +119,7 @@ Candidate judged(catalog::TriangleMesh mesh, const std::string& method, const Po
     candidate.checks.push_back({"cloud_distance_mean", mean <= kTrustedDistance * spacing, mean,
                                 text("mean distance of the cloud to its surface %.3g m, expected at most %.3g m", mean,
                                      kTrustedDistance * spacing)});
+    candidate.checks.push_back(gap_check(mesh, cloud, spacing));
   }
   candidate.checks.push_back({"reconstruction_" + method, true, static_cast<double>(mesh.faces.size()),
                               "faces of the surface by " + method + " (figure)"});
@@ -135,36 +159,36 @@ Reconstruction reconstruct_surface(const PointCloud& scanned, const Reconstructi
   expectation.genus = options.genus;
   expectation.second_volume = winding_volume(surface_elements(cloud, kElementLimit));
 
-  std::string tried;
-  const auto accept = [&](Candidate candidate, const std::string& method) {
-    const std::string reasons = failures(candidate.checks);
-    if (reasons.empty() || options.method == ReconstructionMethod::poisson) {
-      result.mesh = std::move(candidate.mesh);
-      result.checks.insert(result.checks.end(), candidate.checks.begin(), candidate.checks.end());
-    }
-    if (!reasons.empty()) tried += (tried.empty() ? "" : " | ") + method + ": " + reasons;
-    return reasons.empty();
+  const auto accept = [&](Candidate& candidate) {
+    result.mesh = std::move(candidate.mesh);
+    result.checks.insert(result.checks.end(), candidate.checks.begin(), candidate.checks.end());
   };
-
+  std::string tried;
   if (options.method != ReconstructionMethod::alpha_wrap) {
-    if (accept(judged(poisson_surface(cloud, spacing, {}), "poisson", cloud, spacing, expectation), "Poisson"))
-      return result;
-    if (options.method == ReconstructionMethod::poisson) {
-      result.mesh = {};
-      result.refusal = "the points give no right solid (" + tried + ")";
+    const catalog::TriangleMesh surface = balanced_on_cloud(poisson_surface(cloud, spacing, {}), cloud, spacing);
+    Candidate candidate = judged(surface, "poisson", cloud, spacing, expectation);
+    const std::string flaws = failures(candidate.checks);
+    if (flaws.empty()) {
+      accept(candidate);
       return result;
     }
+    tried = "Poisson: " + flaws;
     result.checks.push_back({"poisson_solid", false, 0, tried + "; alpha wrap taken instead"});
   }
-  const double diagonal = bounding_diagonal(cloud.points);
-  for (double parts = kAlphaPartsFine; parts >= kAlphaPartsCoarse; parts /= kAlphaStep) {
-    const double alpha = diagonal / parts;
-    const catalog::TriangleMesh wrap = alpha_wrap(cloud.points, alpha, kOffsetPart * alpha);
-    if (accept(judged(projected_to_cloud(wrap, cloud, spacing), "alpha_wrap", cloud, spacing, expectation),
-               text("alpha wrap at diagonal / %.0f", parts))) {
+  if (options.method != ReconstructionMethod::poisson) {
+    std::string wrap_flaws;
+    for (double parts = kAlphaPartsFine; parts >= kAlphaPartsCoarse; parts /= kAlphaStep) {
+      const double alpha = bounding_diagonal(cloud.points) / parts;
+      const catalog::TriangleMesh wrap = alpha_wrap(cloud.points, alpha, kOffsetPart * alpha);
+      Candidate candidate = judged(balanced_on_cloud(projected_to_cloud(wrap, cloud, spacing), cloud, spacing),
+                                   "alpha_wrap", cloud, spacing, expectation);
+      wrap_flaws = failures(candidate.checks);
+      if (!wrap_flaws.empty()) continue;
+      accept(candidate);
       result.checks.push_back({"alpha_wrap_alpha", true, alpha, "radius of the carving ball [m]"});
       return result;
     }
+    tried += (tried.empty() ? "" : "; ") + ("coarsest alpha wrap: " + wrap_flaws);
   }
   result.refusal = "the points give no right solid (" + tried + ")";
   return result;

@@ -13,6 +13,11 @@
 #include "shape_pipeline/surfaces/surface_mesh_conversion.h"
 
 namespace shape_pipeline {
+namespace {
+
+constexpr std::size_t kLongestExactLoop = 300;  // edges; the exact triangulation takes the cube of this in time
+
+}  // namespace
 
 HoleFilling fill_holes(catalog::TriangleMesh& mesh) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -28,7 +33,9 @@ HoleFilling fill_holes(catalog::TriangleMesh& mesh) {
   for (const SurfaceMesh::Halfedge_index loop : loops) {
     std::vector<SurfaceMesh::Face_index> faces;
     std::vector<SurfaceMesh::Vertex_index> vertices;
-    PMP::triangulate_refine_and_fair_hole(surface, loop, std::back_inserter(faces), std::back_inserter(vertices));
+    const auto length = halfedges_around_face(loop, surface).size();
+    PMP::triangulate_refine_and_fair_hole(surface, loop, std::back_inserter(faces), std::back_inserter(vertices),
+                                          CGAL::parameters::do_not_use_cubic_algorithm(length > kLongestExactLoop));
     ++(faces.empty() ? filling.left_open : filling.filled);
   }
   const double area_before = surface_area(mesh);

@@ -3,19 +3,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "shape_pipeline/surfaces/nearest_points.h"
+#include "shape_pipeline/surfaces/surface_distance.h"
 #include "shape_pipeline/surfaces/vector3.h"
+#include "shape_pipeline/surfaces/winding_volume.h"
 
 namespace shape_pipeline {
 namespace {
 
-constexpr int kNeighbours = 12;      // points that pull at a vertex
-constexpr int kPasses = 3;           // the shift falls below a hundredth of the first after three
-constexpr double kWeightWidth = 1;   // Gaussian width / spacing: narrower follows noise, wider rounds edges
-constexpr double kTrustedNear = 2;   // nearest point / spacing up to which the cloud is followed fully
-constexpr double kTrustedFar = 4;    // and from which it is not followed at all
-constexpr double kLargestShift = 1;  // of a vertex in one pass / spacing
+constexpr int kNeighbours = 12;       // points that pull at a vertex
+constexpr int kPasses = 3;            // the shift falls below a hundredth of the first after three
+constexpr double kWeightWidth = 1;    // Gaussian width / spacing: narrower follows noise, wider rounds edges
+constexpr double kTrustedNear = 2;    // nearest point / spacing up to which the cloud is followed fully
+constexpr double kTrustedFar = 4;     // and from which it is not followed at all
+constexpr double kLargestShift = 1;   // of a vertex in one pass / spacing
+constexpr double kStrayDistance = 3;  // from the surface / spacing: beyond, a point says nothing about it
+constexpr int kAllElements = std::numeric_limits<int>::max();
 
 std::vector<Point> vertex_normals(const catalog::TriangleMesh& mesh) {
   std::vector<Point> normals(mesh.vertices.size(), Point{});
@@ -59,6 +64,25 @@ catalog::TriangleMesh projected_to_cloud(const catalog::TriangleMesh& mesh, cons
       result.vertices[v] = add(result.vertices[v], scaled(normals[v], shift));
     }
   }
+  return result;
+}
+
+catalog::TriangleMesh balanced_on_cloud(const catalog::TriangleMesh& mesh, const PointCloud& cloud, double spacing) {
+  if (mesh.faces.empty()) return mesh;
+  const std::vector<SurfaceElement> elements = surface_elements(cloud, kAllElements);
+  const std::vector<double> distances = signed_distances_to_surface(cloud.points, mesh);
+  double area_sum = 0, weighted_distance = 0;
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    if (std::abs(distances[i]) > kStrayDistance * spacing) continue;
+    const double area = norm(elements[i].area);
+    area_sum += area;
+    weighted_distance += area * distances[i];
+  }
+  if (!(area_sum > 0)) return mesh;
+  catalog::TriangleMesh result = mesh;
+  const std::vector<Point> normals = vertex_normals(mesh);
+  for (std::size_t v = 0; v < result.vertices.size(); ++v)
+    result.vertices[v] = add(result.vertices[v], scaled(normals[v], weighted_distance / area_sum));
   return result;
 }
 

@@ -12,4 +12,9 @@ namespace shape_pipeline {
 /// surface stays. `spacing` [m] is the cloud's average point distance.
 catalog::TriangleMesh projected_to_cloud(const catalog::TriangleMesh& mesh, const PointCloud& cloud, double spacing);
 
+/// The mesh moved along its vertex normals by one distance for all, so that the cloud lies as much outside as inside
+/// (area-weighted mean of the signed distances is zero). To first order that gives back the volume which a smoothing
+/// reconstruction cut from edges, without following the noise.
+catalog::TriangleMesh balanced_on_cloud(const catalog::TriangleMesh& mesh, const PointCloud& cloud, double spacing);
+
 }  // namespace shape_pipeline
