@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+
+#include "catalog/triangle_mesh.h"
+
+namespace shape_pipeline {
+
+/// Joins vertices nearer than `tolerance` [m] (0: identical ones). Returns how many vertices were joined to another.
+std::size_t weld_vertices(catalog::TriangleMesh& soup, double tolerance);
+
+/// Removes faces with a repeated corner or without area. Returns how many.
+std::size_t remove_degenerate_faces(catalog::TriangleMesh& soup);
+
+/// Removes faces on the same three vertices as an earlier one. Returns how many.
+std::size_t remove_duplicate_faces(catalog::TriangleMesh& soup);
+
+}  // namespace shape_pipeline
