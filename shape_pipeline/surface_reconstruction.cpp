@@ -27,7 +27,7 @@ constexpr int kElementLimit = 4000;         // surface elements of the winding n
 constexpr double kNormalAgreement = 0.9;  // mean |cosine| between given and estimated normals for the given to be used
 constexpr double kSameSideShare = 0.95;   // share of given normals on the same side as the estimated ones
 constexpr double kAlphaPartsFine = 50;    // alpha = diagonal / parts, tried from fine to coarse: a fine wrap that
-constexpr double kAlphaPartsCoarse = 15;  // slips through a gap fails its volume check, a coarse one bridges hollows
+constexpr double kAlphaPartsCoarse = 4;   // slips through a gap fails its volume check, a coarse one bridges hollows
 constexpr double kAlphaStep = 1.4;
 constexpr double kOffsetPart = 1.0 / 30;  // offset / alpha: the wrap is drawn onto the cloud afterwards
 constexpr double kGapDistance = 4;        // of a face to the nearest point / spacing, from which it spans a gap

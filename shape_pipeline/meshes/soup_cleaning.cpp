@@ -67,6 +67,28 @@ std::size_t weld_vertices(catalog::TriangleMesh& soup, double tolerance) {
   return joined;
 }
 
+void put_in_canonical_order(catalog::TriangleMesh& mesh) {
+  std::vector<bool> is_used(mesh.vertices.size(), false);
+  for (const catalog::Triangle& face : mesh.faces)
+    for (const int v : face) is_used[v] = true;
+  std::vector<int> order;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    if (is_used[v]) order.push_back(static_cast<int>(v));
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return mesh.vertices[a] < mesh.vertices[b]; });
+  std::vector<int> number(mesh.vertices.size(), -1);
+  std::vector<Point> vertices;
+  for (const int v : order) {
+    number[v] = static_cast<int>(vertices.size());
+    vertices.push_back(mesh.vertices[v]);
+  }
+  mesh.vertices = std::move(vertices);
+  for (catalog::Triangle& face : mesh.faces) {
+    for (int& v : face) v = number[v];
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+  }
+  std::sort(mesh.faces.begin(), mesh.faces.end());
+}
+
 std::size_t remove_degenerate_faces(catalog::TriangleMesh& soup) {
   return std::erase_if(soup.faces, [&](const catalog::Triangle& face) {
     if (face[0] == face[1] || face[1] == face[2] || face[2] == face[0]) return true;

@@ -40,7 +40,7 @@ catalog::TriangleMesh read_with_assimp(const std::filesystem::path& path, const 
   catalog::TriangleMesh mesh;
   for (unsigned int m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& part = *scene->mMeshes[m];
-    if (part.mPrimitiveTypes != aiPrimitiveType_TRIANGLE) continue;
+    if ((part.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) continue;  // lines and points
     const int first = static_cast<int>(mesh.vertices.size());
     for (unsigned int v = 0; v < part.mNumVertices; ++v)
       mesh.vertices.push_back({part.mVertices[v].x, part.mVertices[v].y, part.mVertices[v].z});

@@ -29,9 +29,10 @@ void check_coordinates(const std::filesystem::path& path, const TextRows& rows, 
 }
 
 void check_ascii_stl(const std::filesystem::path& path, std::string_view bytes) {
+  if (bytes.rfind("endsolid") == std::string_view::npos)
+    refuse_file(path, "end of file", "'endsolid' is missing: the file is truncated", kExportAgain);
   TextRows rows(bytes);
   std::size_t vertices = 0, facets = 0;
-  bool is_ended = false;
   while (rows.next()) {
     const auto words = words_of(rows.row());
     if (words[0] == "vertex") {
@@ -39,15 +40,11 @@ void check_ascii_stl(const std::filesystem::path& path, std::string_view bytes) 
       ++vertices;
     } else if (words[0] == "facet") {
       ++facets;
-    } else if (words[0] == "endsolid") {
-      is_ended = true;
-    } else if (words[0] != "solid" && words[0] != "outer" && words[0] != "endloop" && words[0] != "endfacet") {
+    } else if (words[0] != "solid" && words[0] != "endsolid" && words[0] != "outer" && words[0] != "endloop" &&
+               words[0] != "endfacet") {
       refuse_file(path, rows.place(), "expected a line of an ASCII STL, found " + excerpt(rows.row()), kExportAgain);
     }
   }
-  if (!is_ended)
-    refuse_file(path, "end of file", "'endsolid' is missing after " + std::to_string(facets) + " facets: truncated",
-                kExportAgain);
   if (vertices != 3 * facets || facets == 0)
     refuse_file(path, "",
                 "expected three vertices a facet, found " + std::to_string(vertices) + " vertices in " +

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shape_pipeline/reading/scan_extent.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "catalog/mass_properties.h"
@@ -28,7 +29,11 @@ void refuse_flat_scan(const std::filesystem::path& path, const std::vector<catal
   catalog::symmetric_eigen(covariance, variance, axes);
   const auto spread = [&](int i) { return std::sqrt(std::max(variance[i], 0.0)); };
   if (spread(0) > kFlatRatio * spread(2)) return;
-  const std::string found = !(spread(2) > 0)                      ? "all points are in one place"
+  // Sums of equal coordinates leave a spread of rounding errors.
+  double largest = 0;
+  for (const double coordinate : mean) largest = std::max(largest, std::abs(coordinate));
+  const double rounding = 1e-12 * largest * static_cast<double>(points.size());
+  const std::string found = !(spread(2) > rounding)               ? "all points are in one place"
                             : spread(1) <= kFlatRatio * spread(2) ? "all points lie on one line"
                                                                   : "all points lie in one plane";
   refuse_file(path, "points", "expected a solid particle, but " + found, "scan it from all sides");

@@ -5,6 +5,7 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
 
+#include "shape_pipeline/meshes/soup_cleaning.h"
 #include "shape_pipeline/surfaces/surface_mesh_conversion.h"
 
 namespace shape_pipeline {
@@ -20,18 +21,23 @@ std::vector<Kernel::Point_3> kernel_points(const std::vector<catalog::Point>& po
   return result;
 }
 
+catalog::TriangleMesh in_canonical_order(catalog::TriangleMesh mesh) {
+  put_in_canonical_order(mesh);
+  return mesh;
+}
+
 }  // namespace
 
 catalog::TriangleMesh alpha_wrap(const std::vector<catalog::Point>& points, double alpha, double offset) {
   SurfaceMesh wrap;
   CGAL::alpha_wrap_3(kernel_points(points), alpha, offset, wrap);
-  return copy_from_surface_mesh(wrap);
+  return in_canonical_order(copy_from_surface_mesh(wrap));
 }
 
 catalog::TriangleMesh alpha_wrap(const catalog::TriangleMesh& soup, double alpha, double offset) {
   SurfaceMesh wrap;
   CGAL::alpha_wrap_3(kernel_points(soup.vertices), soup.faces, alpha, offset, wrap);
-  return copy_from_surface_mesh(wrap);
+  return in_canonical_order(copy_from_surface_mesh(wrap));
 }
 
 }  // namespace shape_pipeline

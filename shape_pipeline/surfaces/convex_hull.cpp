@@ -5,6 +5,7 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 
+#include "shape_pipeline/meshes/soup_cleaning.h"
 #include "shape_pipeline/surfaces/surface_mesh_conversion.h"
 
 namespace shape_pipeline {
@@ -17,7 +18,10 @@ catalog::TriangleMesh convex_hull(const std::vector<catalog::Point>& points) {
   CGAL::Surface_mesh<Kernel::Point_3> hull;
   CGAL::convex_hull_3(kernel_points.begin(), kernel_points.end(), hull);
   if (hull.number_of_faces() < 4) return {};
-  return copy_from_surface_mesh(hull);
+  // The faces come in the order of addresses.
+  catalog::TriangleMesh result = copy_from_surface_mesh(hull);
+  put_in_canonical_order(result);
+  return result;
 }
 
 }  // namespace shape_pipeline

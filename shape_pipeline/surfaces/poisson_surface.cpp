@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "shape_pipeline/meshes/soup_cleaning.h"
 #include "shape_pipeline/surfaces/surface_mesh_conversion.h"
 
 namespace shape_pipeline {
@@ -22,7 +23,31 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using OrientedPoint = std::pair<Kernel::Point_3, Kernel::Vector_3>;
 using PoissonFunction = CGAL::Poisson_reconstruction_function<Kernel>;
-using Triangulation = CGAL::Surface_mesh_default_triangulation_3;
+
+/// A vertex or cell with a serial number. The mesher keeps sets ordered by handle; with the number their order is that
+/// of creation, without it that of addresses, and the surface would depend on where memory happened to lie.
+template <class Base>
+class Numbered : public Base {
+ public:
+  using Base::Base;
+  using Has_timestamp = CGAL::Tag_true;
+  template <class DataStructure>
+  struct Rebind_TDS {
+    using Other = Numbered<typename Base::template Rebind_TDS<DataStructure>::Other>;
+  };
+  std::size_t time_stamp() const { return number_; }
+  void set_time_stamp(const std::size_t& number) { number_ = number; }
+
+ private:
+  std::size_t number_ = static_cast<std::size_t>(-1);  // none yet: the container gives it
+};
+
+// The components of CGAL::Surface_mesh_default_triangulation_3, numbered.
+using Traits = CGAL::Robust_circumcenter_traits_3<Kernel>;
+using Vertex = Numbered<CGAL::Surface_mesh_vertex_base_3<Traits>>;
+using Cell = Numbered<
+    CGAL::Delaunay_triangulation_cell_base_with_circumcenter_3<Traits, CGAL::Surface_mesh_cell_base_3<Traits>>>;
+using Triangulation = CGAL::Delaunay_triangulation_3<Traits, CGAL::Triangulation_data_structure_3<Vertex, Cell>>;
 using Complex = CGAL::Surface_mesh_complex_2_in_triangulation_3<Triangulation>;
 
 constexpr double kFacetAngle = 20;       // [deg] smallest facet angle that the refinement asks for
@@ -60,7 +85,10 @@ catalog::TriangleMesh poisson_surface(const PointCloud& cloud, double spacing, c
   if (triangulation.number_of_vertices() == 0) return {};
   CGAL::Surface_mesh<Kernel::Point_3> mesh;
   CGAL::facets_in_complex_2_to_triangle_mesh(complex, mesh);
-  return copy_from_surface_mesh(mesh);
+  // The mesher lists its facets by address.
+  catalog::TriangleMesh result = copy_from_surface_mesh(mesh);
+  put_in_canonical_order(result);
+  return result;
 }
 
 }  // namespace shape_pipeline

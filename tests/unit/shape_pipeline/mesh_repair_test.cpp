@@ -134,7 +134,9 @@ TEST(MeshRepair, ARingNeedsItsGenusStated) {
 TEST(MeshRepair, RefusesAnOpenSheetWithTheReason) {
   // Half a sphere: patching it shut would invent more than a fifth of its area.
   catalog::TriangleMesh mesh = uv_sphere(1, 16);
-  std::erase_if(mesh.faces, [&](const auto& face) { return mesh.vertices[face[0]][2] < -1e-9 || mesh.vertices[face[1]][2] < -1e-9; });
+  std::erase_if(mesh.faces, [&](const auto& face) {
+    return mesh.vertices[face[0]][2] < -1e-9 || mesh.vertices[face[1]][2] < -1e-9;
+  });
   const RepairedMesh repaired = repair_mesh(mesh, kNoWrap);
   EXPECT_TRUE(repaired.mesh.faces.empty());
   EXPECT_NE(repaired.refusal.find("patches make up"), std::string::npos) << repaired.refusal;

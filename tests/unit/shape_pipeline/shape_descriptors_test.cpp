@@ -82,12 +82,21 @@ TEST(ShapeDescriptors, OfFinerSpheresTendToOneWithTheSquareOfTheEdge) {
 
 TEST(ShapeDescriptors, ConvexityOfANotchedBlock) {
   // An L: the unit square prism of 2 x 2 x 1 without one quarter. The hull cuts the notch by a diagonal.
-  const catalog::TriangleMesh ell{
-      {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0},
-       {0, 0, 1}, {2, 0, 1}, {2, 1, 1}, {1, 1, 1}, {1, 2, 1}, {0, 2, 1}},
-      {{0, 3, 1}, {1, 3, 2}, {0, 5, 3}, {3, 5, 4}, {6, 7, 9}, {7, 8, 9}, {6, 9, 11}, {9, 10, 11},
-       {0, 1, 7}, {0, 7, 6}, {1, 2, 8}, {1, 8, 7}, {2, 3, 9}, {2, 9, 8}, {3, 4, 10}, {3, 10, 9},
-       {4, 5, 11}, {4, 11, 10}, {5, 0, 6}, {5, 6, 11}}};
+  const catalog::TriangleMesh ell{{{0, 0, 0},
+                                   {2, 0, 0},
+                                   {2, 1, 0},
+                                   {1, 1, 0},
+                                   {1, 2, 0},
+                                   {0, 2, 0},
+                                   {0, 0, 1},
+                                   {2, 0, 1},
+                                   {2, 1, 1},
+                                   {1, 1, 1},
+                                   {1, 2, 1},
+                                   {0, 2, 1}},
+                                  {{0, 3, 1},   {1, 3, 2},  {0, 5, 3},  {3, 5, 4},   {6, 7, 9}, {7, 8, 9}, {6, 9, 11},
+                                   {9, 10, 11}, {0, 1, 7},  {0, 7, 6},  {1, 2, 8},   {1, 8, 7}, {2, 3, 9}, {2, 9, 8},
+                                   {3, 4, 10},  {3, 10, 9}, {4, 5, 11}, {4, 11, 10}, {5, 0, 6}, {5, 6, 11}}};
   auto d = shape_descriptors(moved(ell, 1, {0, 0, 0}));
   EXPECT_NEAR(d["volume"], 3, 1e-12);
   EXPECT_NEAR(d["volume_hull"], 3.5, 1e-12);

@@ -25,14 +25,16 @@ const catalog::Check* find_check(const std::vector<catalog::Check>& checks, cons
   return check == checks.end() ? nullptr : &*check;
 }
 
-void expect_solid(const Reconstruction& reconstruction, double volume, double area, double tolerance) {
+void expect_solid(const Reconstruction& reconstruction, double volume, double area, double tolerance,
+                  double area_tolerance = 0) {
+  if (area_tolerance == 0) area_tolerance = tolerance;
   ASSERT_EQ(reconstruction.refusal, "");
   const MeshTopology topology = mesh_topology(reconstruction.mesh);
   EXPECT_TRUE(topology.is_closed());
   EXPECT_EQ(topology.components, 1u);
   EXPECT_EQ(topology.euler_number, 2);
   EXPECT_NEAR(signed_volume(reconstruction.mesh), volume, tolerance * volume);
-  EXPECT_NEAR(surface_area(reconstruction.mesh), area, tolerance * area);
+  EXPECT_NEAR(surface_area(reconstruction.mesh), area, area_tolerance * area);
 }
 
 TEST(SurfaceReconstruction, OfASampledSphere) {
@@ -58,7 +60,8 @@ TEST(SurfaceReconstruction, OfASampledSphere) {
 TEST(SurfaceReconstruction, OfASampledCubeKeepsItsVolume) {
   ScannerFlaws flaws{.seed = 5, .points = 5000, .noise_sigma = 0, .gap_angle = 0, .stray_points = 0};
   const catalog::TriangleMesh cube = moved(box_mesh({0, 0, 0}, {1, 1, 1}), 0.02, {4, 5, 6});
-  expect_solid(reconstruct_surface(virtual_scan(cube, flaws), {}), 8e-6, 6 * 4e-4, 0.02);
+  expect_solid(reconstruct_surface(virtual_scan(cube, flaws), {}), 8e-6, 6 * 4e-4, 0.005,
+               0.03);  // the area of the rounded edges is lost
 }
 
 TEST(SurfaceReconstruction, OfANotchedRockWithNoiseGapAndStrayPoints) {
@@ -70,9 +73,21 @@ TEST(SurfaceReconstruction, OfANotchedRockWithNoiseGapAndStrayPoints) {
 
 TEST(SurfaceReconstruction, IsTheSameToTheBit) {
   const PointCloud cloud = virtual_scan(virtual_rock({.seed = 12}), {.seed = 3, .points = 2500});
-  const Reconstruction first = reconstruct_surface(cloud, {}), second = reconstruct_surface(cloud, {});
-  EXPECT_EQ(first.mesh.vertices, second.mesh.vertices);
-  EXPECT_EQ(first.mesh.faces, second.mesh.faces);
+  for (const ReconstructionMethod method : {ReconstructionMethod::poisson, ReconstructionMethod::alpha_wrap}) {
+    ReconstructionOptions options;
+    options.method = method;
+    const Reconstruction first = reconstruct_surface(cloud, options);
+    ASSERT_EQ(first.refusal, "");
+    // The second run finds its memory at other addresses: CGAL's sets of handles must not show it.
+    std::vector<std::vector<char>> ballast;
+    for (int k = 0; k < 3000; ++k) ballast.emplace_back(40 + k * 7919 % 600);
+    for (std::size_t k = 0; k < ballast.size(); k += 2) std::vector<char>().swap(ballast[k]);
+    const Reconstruction second = reconstruct_surface(cloud, options);
+    EXPECT_TRUE(first.mesh.vertices == second.mesh.vertices);
+    EXPECT_TRUE(first.mesh.faces == second.mesh.faces);
+    for (std::size_t c = 0; c < first.checks.size(); ++c)
+      EXPECT_EQ(first.checks[c].figure, second.checks[c].figure) << first.checks[c].name;
+  }
 }
 
 TEST(SurfaceReconstruction, AlphaWrapStandsInWithinItsVolumeCheck) {
@@ -105,8 +120,7 @@ TEST(WindingVolume, OfMeshesAndOfAHoledOne) {
 
 TEST(SurfaceDistance, IsSignedAndExactOnABox) {
   const catalog::TriangleMesh box = box_mesh({0, 0, 0}, {1, 1, 1});
-  const std::vector<double> d =
-      signed_distances_to_surface({{0.5, 0.5, 1.25}, {0.5, 0.4, 0.9}, {2, 2, 0.5}}, box);
+  const std::vector<double> d = signed_distances_to_surface({{0.5, 0.5, 1.25}, {0.5, 0.4, 0.9}, {2, 2, 0.5}}, box);
   EXPECT_NEAR(d[0], 0.25, 1e-12);
   EXPECT_NEAR(d[1], -0.1, 1e-12);
   EXPECT_NEAR(d[2], std::sqrt(2.0), 1e-12);
