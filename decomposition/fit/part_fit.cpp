@@ -36,7 +36,7 @@ class Fitter {
     const double decay = std::pow(plan_.last_step / plan_.first_step, 1.0 / std::max(1, plan_.steps - 1));
     double step = plan_.first_step * solid_.diagonal();
     for (int s = 0; s < plan_.steps; ++s, step *= decay) {
-      const bool may_revive = s < kReviveUntil * plan_.steps;
+      const bool may_revive = plan_.revives && s < kReviveUntil * plan_.steps;
       if (may_revive && s % kReviveEvery == kReviveEvery - 1) revive_dead_vertices();
       gather_forces();
       move(step);

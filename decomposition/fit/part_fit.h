@@ -18,6 +18,7 @@ struct FitPlan {
   int samples_along = 4;     // at most this squared sample points a face
   double volume = 0;         // volume the part is steered to [m3]; 0: least symmetric difference only
   std::uint64_t seed = 1;
+  bool revives = true;  // put vertices that fell inside the hull back on it
 };
 
 /// A convex polyhedron in a cell: the hull of `points`, all of them hull vertices.

@@ -64,7 +64,20 @@ void SmallHull::remove_face(int face) {
   edge_face(a, b) = edge_face(b, c) = edge_face(c, a) = static_cast<std::int16_t>(face);
 }
 
-bool SmallHull::insert(int point, const std::vector<Vec3>& points) {
+bool SmallHull::horizon_is_a_loop() {
+  for (const auto& [a, b] : horizon_) next_[static_cast<std::size_t>(a)] = next_[static_cast<std::size_t>(b)] = -1;
+  for (const auto& [a, b] : horizon_) {
+    if (next_[static_cast<std::size_t>(a)] >= 0) return false;
+    next_[static_cast<std::size_t>(a)] = b;
+  }
+  const int start = horizon_.front()[0];
+  std::size_t length = 1;
+  for (int v = next_[static_cast<std::size_t>(start)]; v != start && v >= 0 && length <= horizon_.size(); ++length)
+    v = next_[static_cast<std::size_t>(v)];
+  return length == horizon_.size();
+}
+
+void SmallHull::insert(int point, const std::vector<Vec3>& points) {
   const Vec3 p = points[static_cast<std::size_t>(point)];
   const int n = static_cast<int>(faces_.size());
   visible_.clear();
@@ -74,22 +87,22 @@ bool SmallHull::insert(int point, const std::vector<Vec3>& points) {
     is_visible_[i] = dot(normals_[i], p) - offsets_[i] > tolerance_;
     if (is_visible_[i]) visible_.push_back(f);
   }
-  if (visible_.empty()) return true;
-  if (static_cast<int>(visible_.size()) == n) return false;
+  if (visible_.empty()) return;
+  if (static_cast<int>(visible_.size()) == n) return;
   horizon_.clear();
   for (const int f : visible_) {
     const auto face = faces_[static_cast<std::size_t>(f)];
     for (int k = 0; k < 3; ++k) {
       const int a = face[static_cast<std::size_t>(k)], b = face[static_cast<std::size_t>((k + 1) % 3)];
       const int opposite = edge_face(b, a);
-      if (opposite >= n) return false;  // rounding has torn the surface
       if (!is_visible_[static_cast<std::size_t>(opposite)]) horizon_.push_back({a, b});
     }
   }
+  // Among points closer than rounding the visible faces may not hang together: such a point adds nothing, leave it out.
+  if (horizon_.empty() || !horizon_is_a_loop()) return;
   std::sort(visible_.begin(), visible_.end(), std::greater<>());
   for (const int f : visible_) remove_face(f);
   for (const auto& [a, b] : horizon_) add_face(a, b, point, points);
-  return true;
 }
 
 bool SmallHull::finish(const std::vector<Vec3>& points) {
@@ -122,7 +135,7 @@ bool SmallHull::build(const std::vector<Vec3>& points) {
   add_face(t[0], t[3], t[1], points);
   add_face(t[1], t[3], t[2], points);
   for (int i = 0; i < n; ++i)
-    if (i != t[0] && i != t[1] && i != t[2] && i != t[3] && !insert(i, points)) return false;
+    if (i != t[0] && i != t[1] && i != t[2] && i != t[3]) insert(i, points);
   return finish(points);
 }
 

@@ -16,7 +16,7 @@ class SmallHull {
  public:
   static constexpr int kMaxPoints = 128;
 
-  /// False if the points are flat or fewer than four, or the hull is not a closed surface.
+  /// False if the points are flat or fewer than four, or more than kMaxPoints.
   bool build(const std::vector<Vec3>& points);
 
   /// n_faces x 3, counter-clockwise seen from outside, indices into the points given.
@@ -29,7 +29,8 @@ class SmallHull {
   bool start_with_tetrahedron(const std::vector<Vec3>& points, std::array<int, 4>& corners);
   void add_face(int a, int b, int c, const std::vector<Vec3>& points);
   void remove_face(int face);
-  bool insert(int point, const std::vector<Vec3>& points);
+  void insert(int point, const std::vector<Vec3>& points);
+  bool horizon_is_a_loop();
   bool finish(const std::vector<Vec3>& points);
   std::int16_t& edge_face(int a, int b) { return edge_face_[static_cast<std::size_t>(a * kMaxPoints + b)]; }
 
@@ -40,6 +41,7 @@ class SmallHull {
   std::vector<int> visible_;
   std::vector<char> is_visible_;
   std::vector<std::array<int, 2>> horizon_;
+  std::array<int, kMaxPoints> next_{};  // along the horizon
   std::array<char, kMaxPoints> is_vertex_{};
   int vertex_count_ = 0;
   double volume_ = 0;

@@ -145,11 +145,12 @@ void CutTree::grow(int count) {
   }
 }
 
-std::vector<const Piece*> CutTree::pieces(int count) const {
+std::vector<int> CutTree::pieces(int count) const {
   const int cuts = std::min(count - 1, static_cast<int>(cuts_.size()));
-  std::vector<const Piece*> result;
-  for (const Node& node : nodes_)
-    if (node.born <= cuts && (node.split < 0 || node.split >= cuts)) result.push_back(&node.piece);
+  std::vector<int> result;
+  for (std::size_t n = 0; n < nodes_.size(); ++n)
+    if (nodes_[n].born <= cuts && (nodes_[n].split < 0 || nodes_[n].split >= cuts))
+      result.push_back(static_cast<int>(n));
   return result;
 }
 

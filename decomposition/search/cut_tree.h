@@ -54,8 +54,10 @@ class CutTree {
 
   /// Cuts until there are `count` pieces or no cut helps.
   void grow(int count);
-  /// Pieces after the first `count` - 1 cuts (fewer if the tree has fewer).
-  std::vector<const Piece*> pieces(int count) const;
+  /// Numbers of the pieces after the first `count` - 1 cuts (fewer if the tree has fewer).
+  std::vector<int> pieces(int count) const;
+  const Piece& piece(int number) const { return nodes_[static_cast<std::size_t>(number)].piece; }
+  const SearchPlan& plan() const { return plan_; }
   const std::vector<Plane>& cuts() const { return cuts_; }
 
  private:
