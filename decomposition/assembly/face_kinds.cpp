@@ -104,28 +104,37 @@ class FaceSplitter {
     }
     for (double& h : height)
       if (std::abs(h) < kReuseShare * size) h = 0;
-    int crossings = 0;
-    for (std::size_t k = 0; k < polygon.size(); ++k) crossings += height[k] * height[(k + 1) % polygon.size()] < 0;
-    const bool has_both_sides = std::any_of(height.begin(), height.end(), [](double h) { return h > 0; }) &&
-                                std::any_of(height.begin(), height.end(), [](double h) { return h < 0; });
-    if (!has_both_sides || static_cast<int>(part.vertices.size()) + crossings > vertex_cap_) return false;
-    std::vector<int> behind, beyond;
-    for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const std::size_t next = (k + 1) % polygon.size();
-      if (height[k] <= 0) behind.push_back(polygon[k]);
-      if (height[k] >= 0) beyond.push_back(polygon[k]);
-      if (height[k] * height[next] < 0) {
-        const int added = add_vertex(polygon[k], polygon[next], height[k] / (height[k] - height[next]));
-        behind.push_back(added);
-        beyond.push_back(added);
-      }
+    // What lies beyond must be one run of corners; `start` is the first of them.
+    const std::size_t n = polygon.size();
+    std::size_t start = n, runs = 0, run_length = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+      run_length += height[k] > 0;
+      if (height[k] > 0 && height[(k + n - 1) % n] <= 0) start = k, ++runs;
     }
+    if (runs != 1 || std::none_of(height.begin(), height.end(), [](double h) { return h < 0; })) return false;
+    const std::size_t end = (start + run_length) % n, before = (start + n - 1) % n, last = (end + n - 1) % n;
+    const bool cuts_first = height[before] < 0, cuts_last = height[end] < 0;
+    if (static_cast<int>(part.vertices.size()) + cuts_first + cuts_last > vertex_cap_) return false;
+    const int entry =
+        cuts_first ? add_vertex(polygon[before], polygon[start], share_along(height, before, start)) : polygon[before];
+    const int leave =
+        cuts_last ? add_vertex(polygon[last], polygon[end], share_along(height, last, end)) : polygon[end];
+    std::vector<int> beyond{entry}, behind{leave};
+    for (std::size_t k = 0; k < run_length; ++k) beyond.push_back(polygon[(start + k) % n]);
+    beyond.push_back(leave);
+    for (std::size_t k = 0; k < n - run_length; ++k)
+      if (const int v = polygon[(end + k) % n]; v != leave && v != entry) behind.push_back(v);
+    behind.push_back(entry);
     catalog::ConvexFace outside = part.faces[face];
     outside.vertices = std::move(beyond);
     part.faces[face].vertices = std::move(behind);
     part.faces.push_back(std::move(outside));
     built_.face_cut.push_back(built_.face_cut[face]);
     return true;
+  }
+
+  static double share_along(const std::vector<double>& height, std::size_t from, std::size_t to) {
+    return height[from] / (height[from] - height[to]);
   }
 
   /// A new vertex on edge a -> b, put into the neighbouring face as well.

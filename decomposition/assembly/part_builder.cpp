@@ -14,6 +14,7 @@ namespace {
 // All shares of the part's size (diagonal of its bounding box).
 constexpr double kOnPlane = 1e-12;          // a snapped point is this near its cut planes
 constexpr double kCoplanar = 2e-10;         // triangles this flat become one polygon; promised: planar to 1e-9
+constexpr int kDirectionRounds = 2000;      // to find a way off all planes; three or four do for planes at fair angles
 constexpr double kStandsOut = 1e-7;         // a corner of a cut polygon stands out at least this far
 constexpr double kFlattestTriangle = 1e-5;  // below this height a triangle has no safe normal: its apex goes
 
@@ -120,12 +121,12 @@ Vec3 nudged_inside(const Vec3& p, const std::vector<Plane>& planes, double dista
   for (const Plane& plane : planes)
     if (plane.signed_distance(p) > -distance) near.push_back(&plane);
   // A direction that leads away from all of them: repeatedly add the normal of the plane it leaves slowest.
-  for (int round = 0; round < 50 && !near.empty(); ++round) {
+  for (int round = 0; round < kDirectionRounds && !near.empty(); ++round) {
     const Plane* worst = *std::min_element(near.begin(), near.end(), [&](const Plane* a, const Plane* b) {
       return -dot(a->normal, inward) < -dot(b->normal, inward);
     });
     if (-dot(worst->normal, inward) >= 1) break;
-    inward -= (1 + dot(worst->normal, inward)) * worst->normal;
+    inward -= (1.2 + dot(worst->normal, inward)) * worst->normal;
   }
   const double unit = std::numeric_limits<double>::epsilon() *
                       std::fmax(std::fmax(std::abs(p.x), std::abs(p.y)), std::fmax(std::abs(p.z), distance));

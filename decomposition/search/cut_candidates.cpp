@@ -20,25 +20,40 @@ double share_behind(const std::vector<Vec3>& points, const Plane& plane) {
   return static_cast<double>(behind) / static_cast<double>(points.size());
 }
 
+struct SideScore {
+  double misfit = kNotAllowed;
+  bool is_exact = false;
+};
+
 /// Misfit of a short fit of one side; not allowed if the side is too small, too thin or does not fit at all.
-double score_side(const CutTrial& trial, const Plane& plane, const TrialPlan& how, std::uint64_t seed) {
+SideScore score_side(const CutTrial& trial, const Plane& plane, const TrialPlan& how, std::uint64_t seed) {
   std::vector<Vec3> side;
   for (const Vec3& p : trial.points)
     if (plane.signed_distance(p) < 0) side.push_back(p);
   const double volume = trial.volume * static_cast<double>(side.size()) / static_cast<double>(trial.points.size());
-  if (side.size() < 20 || volume < trial.plan.smallest_volume) return kNotAllowed;
+  if (side.size() < 20 || volume < trial.plan.smallest_volume) return {};
   std::vector<Plane> cell = trial.cell.planes;
   cell.push_back(plane);
-  if (const auto exact =
-          trial.solid.facet_planes().empty() ? std::nullopt : exact_piece(trial.solid, cell, trial.plan.vertex_cap))
-    return exact->thickness < trial.plan.smallest_thickness ? kNotAllowed : -exact->volume;
-  const RegionMoments region = moments_of_points(side, volume);
-  FitPlan plan{how.vertices, how.steps, how.first_step, how.last_step, how.samples_along, 0, seed};
-  const PartFit fit = fit_part(trial.solid, cell, region.centroid, start_points(trial.solid, region, cell, plan), plan);
+  SideScore score;
+  std::vector<Vec3> points;
+  if (const auto exact = exact_piece(trial.solid, cell, trial.plan.vertex_cap)) {
+    score.is_exact = true;
+    points = exact->points;
+  } else {
+    const RegionMoments region = moments_of_points(side, volume);
+    FitPlan plan;
+    plan.vertices = how.vertices;
+    plan.steps = how.steps;
+    plan.first_step = how.first_step;
+    plan.last_step = how.last_step;
+    plan.samples_along = how.samples_along;
+    plan.seed = seed;
+    points = fit_part(trial.solid, cell, region.centroid, start_points(trial.solid, region, cell, plan), plan).points;
+  }
   SmallHull hull;
-  if (!fit.is_valid() || !hull.build(fit.points)) return kNotAllowed;
-  if (hull_thickness(hull, fit.points) < trial.plan.smallest_thickness) return kNotAllowed;
-  return ColumnMeasure(trial.solid, how.stride)(fit.points, hull.faces()).misfit();
+  if (!hull.build(points) || hull_thickness(hull, points) < trial.plan.smallest_thickness) return {};
+  score.misfit = ColumnMeasure(trial.solid, how.stride)(points, hull.faces()).misfit();
+  return score;
 }
 
 }  // namespace
@@ -77,9 +92,10 @@ Plane nudged_plane(const CutTrial& trial, const Plane& plane, double reach, Rand
 }
 
 CutScore score_cut(const CutTrial& trial, const Plane& plane, const TrialPlan& fit, std::uint64_t seed) {
-  const double first = score_side(trial, plane, fit, seed);
-  if (first == kNotAllowed) return {plane, kNotAllowed};
-  return {plane, first + score_side(trial, plane.reversed(), fit, seed)};
+  const SideScore first = score_side(trial, plane, fit, seed);
+  if (first.misfit == kNotAllowed) return {plane, kNotAllowed, false};
+  const SideScore second = score_side(trial, plane.reversed(), fit, seed);
+  return {plane, first.misfit + second.misfit, first.is_exact && second.is_exact};
 }
 
 }  // namespace decomposition

@@ -25,7 +25,8 @@ struct TrialPlan {
 /// A cut with convex stand-ins of its two sides, fitted alike for all cuts that are compared.
 struct CutScore {
   Plane plane;
-  double misfit = 0;  // sum of both sides, see ColumnOverlap::misfit; infinite for a cut that is not allowed
+  double misfit = 0;      // sum of both sides, see ColumnOverlap::misfit; infinite for a cut that is not allowed
+  bool is_exact = false;  // both sides are convex as they stand: no better cut exists
 };
 
 /// Random directions times quantiles of the points along them, then the solid's own facet planes at re-entrant edges.

@@ -101,7 +101,7 @@ std::optional<CutTree::Cut> CutTree::best_cut(const Piece& piece, std::uint64_t 
       planes_of(distinct(score_all(candidate_planes(trial, random), kCoarse), refits, std::cbrt(trial.volume))), kFine);
   if (best.empty() || !std::isfinite(best.front().misfit)) return std::nullopt;
   double reach = kFirstReach;
-  for (int round = 0; round < plan_.polishing_rounds; ++round, reach /= 2) {
+  for (int round = 0; round < plan_.polishing_rounds && !best.front().is_exact; ++round, reach /= 2) {
     std::vector<Plane> planes{best.front().plane};
     for (int move = 0; move < kMovesARound; ++move)
       planes.push_back(nudged_plane(trial, best[move % 3 == 2 && best.size() > 1 ? 1 : 0].plane, reach, random));

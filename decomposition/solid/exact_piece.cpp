@@ -46,6 +46,21 @@ std::vector<std::vector<Vec3>> surface_inside(const Solid& solid, const std::vec
   return surface;
 }
 
+/// A quick no: a convex piece has no re-entrant edge in its cell's inside.
+bool has_reentrant_edge_inside(const Solid& solid, const std::vector<Plane>& cell, double tolerance) {
+  return std::any_of(solid.reentrant_edges().begin(), solid.reentrant_edges().end(), [&](const auto& edge) {
+    double first = 0, last = 1;  // stretch of the edge well inside the cell
+    for (const Plane& plane : cell) {
+      const double from = plane.signed_distance(edge[0]) + 10 * tolerance,
+                   to = plane.signed_distance(edge[1]) + 10 * tolerance;
+      if (from >= 0 && to >= 0) return false;
+      if (from > 0) first = std::fmax(first, from / (from - to));
+      if (to > 0) last = std::fmin(last, from / (from - to));
+    }
+    return last > first;
+  });
+}
+
 /// Corners of the cell itself (three planes) that lie in the solid.
 std::vector<Vec3> cell_corners_inside(const Solid& solid, const std::vector<Plane>& cell, double tolerance) {
   std::vector<Vec3> corners;
@@ -69,6 +84,7 @@ std::vector<Vec3> cell_corners_inside(const Solid& solid, const std::vector<Plan
 std::optional<ExactPiece> exact_piece(const Solid& solid, const std::vector<Plane>& cell, int vertex_cap) {
   if (!solid.is_faceted()) return std::nullopt;
   const double tolerance = kOnPlane * solid.diagonal();
+  if (has_reentrant_edge_inside(solid, cell, tolerance)) return std::nullopt;
   const std::vector<std::vector<Vec3>> surface = surface_inside(solid, cell, tolerance);
   std::vector<Vec3> points = cell_corners_inside(solid, cell, tolerance);
   for (const std::vector<Vec3>& polygon : surface) points.insert(points.end(), polygon.begin(), polygon.end());

@@ -12,7 +12,8 @@ namespace {
 constexpr double kMostCellsAlong = 600;  // bounds the memory for needles and plates
 constexpr int kMostFacets = 400;         // of a solid that counts as faceted
 constexpr double kCoplanar = 1e-10;      // share of the diagonal: triangles this flat are one facet
-constexpr int kPadding = 3;              // empty cells around the solid, so that look-ups near it need no bounds
+constexpr double kReentrant = 1e-6;  // share of the diagonal: a neighbour this far above a face makes a re-entrant edge
+constexpr int kPadding = 3;          // empty cells around the solid, so that look-ups near it need no bounds
 
 /// Clips the line (x, y, z in range) by the half-spaces of a cell.
 ZInterval clip_to_cell(const std::vector<Plane>& cell, double x, double y, ZInterval range) {
@@ -57,14 +58,18 @@ void Solid::find_facets() {
   const std::vector<std::array<int, 3>> neighbours = face_neighbours(faces_);
   std::vector<char> is_wanted(groups.planes.size(), 0);
   for (std::size_t f = 0; f < faces_.size(); ++f)
-    for (const int next : neighbours[f]) {
-      if (next < 0) continue;
-      const auto n = static_cast<std::size_t>(next);
-      const auto mine = static_cast<std::size_t>(groups.group_of[f]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (neighbours[f][k] < 0) continue;
+      const auto next = static_cast<std::size_t>(neighbours[f][k]);
+      const auto group = static_cast<std::size_t>(groups.group_of[f]);
       // Re-entrant: the neighbour rises above this face's plane.
-      for (const int v : faces_[n])
-        if (groups.planes[mine].signed_distance(vertices_[static_cast<std::size_t>(v)]) > 1e-6 * diagonal_)
-          is_wanted[mine] = 1;
+      const bool rises = std::any_of(faces_[next].begin(), faces_[next].end(), [&](int v) {
+        return groups.planes[group].signed_distance(vertices_[static_cast<std::size_t>(v)]) > kReentrant * diagonal_;
+      });
+      if (!rises) continue;
+      is_wanted[group] = 1;
+      reentrant_edges_.push_back({vertices_[static_cast<std::size_t>(faces_[f][k])],
+                                  vertices_[static_cast<std::size_t>(faces_[f][(k + 1) % 3])]});
     }
   std::vector<std::size_t> order;
   for (std::size_t g = 0; g < is_wanted.size(); ++g)

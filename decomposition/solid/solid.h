@@ -39,6 +39,8 @@ class Solid {
   bool is_faceted() const { return is_faceted_; }
   /// Planes of the facets at re-entrant edges of a faceted solid, largest facets first; none for others.
   const std::vector<Plane>& facet_planes() const { return facet_planes_; }
+  /// Ends of the re-entrant edges of a faceted solid; none for others.
+  const std::vector<std::array<Vec3, 2>>& reentrant_edges() const { return reentrant_edges_; }
 
   /// Volume of the part of the solid in the cell, integrated over the columns.
   double volume_inside(const std::vector<Plane>& cell) const;
@@ -59,6 +61,7 @@ class Solid {
   RayIntervals columns_;
   bool is_faceted_ = false;
   std::vector<Plane> facet_planes_;
+  std::vector<std::array<Vec3, 2>> reentrant_edges_;
 };
 
 /// Moments of a set of points that stands for a region of that volume.
