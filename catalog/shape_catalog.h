@@ -63,10 +63,22 @@ class ShapeCatalog {
   LevelOfDetail level(ShapeId id, int parts_asked, int vertex_cap) const;
   std::vector<RejectedInput> rejected() const;
 
-  /// Ids in ascending order of name. `query` is an expression over `name`, `volume`, `face_count` and any descriptor:
-  ///   sphericity_wadell > 0.7 and name like 'rock%'
-  /// with and, or, not, parentheses, comparison operators, like, in (...). Empty selects all. An unknown word is an
-  /// InputError that names it and the nearest known one.
+  /// Ids in ascending order of name. Empty selects all; for example
+  ///   sphericity_wadell > 0.7 and name like 'rock%' and not (failed_checks > 0 or volume < 2e-9)
+  ///
+  ///   expression  = conjunction { "or" conjunction }
+  ///   conjunction = negation { "and" negation }
+  ///   negation    = "not" negation | "(" expression ")" | comparison
+  ///   comparison  = operand ("<" | "<=" | ">" | ">=" | "=" | "==" | "!=" | "<>") operand
+  ///               | operand ["not"] "like" text              (% any letters, _ one letter, case of a-z ignored)
+  ///               | operand ["not"] "in" "(" literal { "," literal } ")"
+  ///   operand     = word | literal
+  ///   literal     = number | text                            (text in ' or ", the quote inside written twice)
+  ///
+  /// Words, case ignored: the texts name, source_file; the numbers volume [m3], face_count, vertex_count,
+  /// failed_checks, level_count; every descriptor that some shape has. A comparison with a descriptor that a shape
+  /// lacks is neither true nor false, also under "not": the shape is selected only if the rest decides. An unknown word
+  /// is an InputError that names it and the nearest known one; a text compared with a number is one too.
   std::vector<ShapeId> select(const std::string& query) const;
 
   int schema_version() const;

@@ -13,7 +13,7 @@ namespace workflows {
 
 int run_stage(const std::string& stage, const std::function<int()>& body) {
   const auto report = [&](const char* kind, const std::exception& error, ExitStatus status) -> int {
-    std::fprintf(stderr, "talus %s: %s%s\n", stage.c_str(), kind, error.what());
+    std::fprintf(stderr, "talus%s%s: %s%s\n", stage.empty() ? "" : " ", stage.c_str(), kind, error.what());
     return status;
   };
   try {

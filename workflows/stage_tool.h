@@ -19,7 +19,7 @@ enum ExitStatus : int {
 };
 
 /// Runs a stage's body and turns exceptions into one line on stderr and an exit status: UsageError 2, InputError 3,
-/// anything else 1. The only place that catches them.
+/// anything else 1. The only place that catches them. The front command itself is the stage "".
 int run_stage(const std::string& stage, const std::function<int()>& body);
 
 /// "talus 0.1.0"

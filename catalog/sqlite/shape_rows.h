@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "catalog/shape_catalog.h"
+#include "catalog/sqlite/database.h"
+
+namespace catalog::sqlite {
+
+// Rows of one shape. Writers expect to run inside a transaction; readers throw InputError where a blob is damaged.
+
+/// Replaces the shape of that name, keeping its id, and drops its levels.
+ShapeId write_shape(const Database& database, const ShapeRecord& shape);
+void write_level(const Database& database, ShapeId id, const LevelOfDetail& level);
+
+ShapeRecord read_shape(const Database& database, ShapeId id);
+ShapeSummary read_summary(const Database& database, ShapeId id);
+LevelOfDetail read_level(const Database& database, ShapeId id, int parts_asked, int vertex_cap);
+
+/// Names of all descriptors that any shape has, ascending.
+std::vector<std::string> descriptor_names(const Database& database);
+/// Makes the view wide_descriptors anew if the set of descriptor names has changed.
+void refresh_wide_descriptors(const Database& database);
+
+}  // namespace catalog::sqlite

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dem_gpu/core/device_vector.h"
+#include "dem_gpu/core/quaternion.h"
+#include "dem_gpu/core/vec3.h"
+
+namespace dem_gpu {
+
+/// What does not change during a run, one entry a body (n_bodies).
+struct BodyConstants {
+  DeviceVector<int> shape;
+  DeviceVector<int> material;
+  DeviceVector<Real> scale;            // [-]
+  DeviceVector<Real> mass;             // [kg]
+  DeviceVector<Vec3> inertia;          // principal [kg m2]
+  DeviceVector<Real> bounding_radius;  // [m]
+  DeviceVector<Real> diameter;         // of the sphere of equal volume [m]
+};
+
+/// Moving state of the bodies, one entry each (n_bodies).
+struct BodyColumns {
+  DeviceVector<char> active;            // 0 once removed
+  DeviceVector<Vec3> position;          // centre of mass, world frame [m]
+  DeviceVector<Quaternion> orientation; // unit, body to world
+  DeviceVector<Vec3> velocity;          // world frame [m/s]
+  DeviceVector<Vec3> angular_velocity;  // body frame, principal axes [rad/s]
+  DeviceVector<Vec3> force;             // world frame, gravity included [N]
+  DeviceVector<Vec3> torque;            // about the centre, world frame [N m]
+  // Velocities that contacts see, world frame: predicted for the end of the step (laws), and mean over the step (work).
+  DeviceVector<Vec3> predicted_velocity;          // [m/s]
+  DeviceVector<Vec3> predicted_angular_velocity;  // [rad/s]
+  DeviceVector<Vec3> mean_velocity;               // [m/s]
+  DeviceVector<Vec3> mean_angular_velocity;       // [rad/s]
+  DeviceVector<Vec3> listed_position;             // when the neighbour list was built [m]
+  DeviceVector<Real> listed_displacement;         // distance from it; infinite if the body has gone wrong [m]
+};
+
+struct BodyView {
+  int count;
+  const int* shape;
+  const int* material;
+  const Real* scale;
+  const Real* mass;
+  const Vec3* inertia;
+  const Real* bounding_radius;
+  const Real* diameter;
+  char* active;
+  Vec3* position;
+  Quaternion* orientation;
+  Vec3* velocity;
+  Vec3* angular_velocity;
+  Vec3* force;
+  Vec3* torque;
+  Vec3* predicted_velocity;
+  Vec3* predicted_angular_velocity;
+  Vec3* mean_velocity;
+  Vec3* mean_angular_velocity;
+  Vec3* listed_position;
+  Real* listed_displacement;
+};
+
+inline BodyView view(const BodyConstants& constants, BodyColumns& columns) {
+  return {static_cast<int>(constants.shape.size()),
+          pointer(constants.shape),
+          pointer(constants.material),
+          pointer(constants.scale),
+          pointer(constants.mass),
+          pointer(constants.inertia),
+          pointer(constants.bounding_radius),
+          pointer(constants.diameter),
+          pointer(columns.active),
+          pointer(columns.position),
+          pointer(columns.orientation),
+          pointer(columns.velocity),
+          pointer(columns.angular_velocity),
+          pointer(columns.force),
+          pointer(columns.torque),
+          pointer(columns.predicted_velocity),
+          pointer(columns.predicted_angular_velocity),
+          pointer(columns.mean_velocity),
+          pointer(columns.mean_angular_velocity),
+          pointer(columns.listed_position),
+          pointer(columns.listed_displacement)};
+}
+
+}  // namespace dem_gpu

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "dem_gpu/core/device_vector.h"
+#include "dem_gpu/core/vec3.h"
+#include "dem_gpu/narrow_phase/separating_plane.h"
+
+namespace dem_gpu {
+
+/// Kinds of candidate pairs; the contact table is sorted by kind, so each kind is one range and one pass.
+enum class ContactKind : int {
+  polyhedron_polyhedron,
+  sphere_sphere,
+  sphere_polyhedron,  // a is the sphere
+  polyhedron_wall,    // analytic wall
+  polyhedron_object,  // convex volume object
+  sphere_wall,
+  sphere_object,
+};
+inline constexpr int kContactKinds = 7;
+
+/// Key of a candidate pair: kind, a, b. Sorted keys make every sum over contacts run in one fixed order.
+using ContactKey = std::uint64_t;
+TALUS_HD inline ContactKey contact_key(ContactKind kind, int a, int b) {
+  return (static_cast<ContactKey>(kind) << 60) | (static_cast<ContactKey>(a) << 30) | static_cast<ContactKey>(b);
+}
+TALUS_HD inline int key_body_a(ContactKey key) { return static_cast<int>((key >> 30) & 0x3fffffff); }
+TALUS_HD inline int key_body_b(ContactKey key) { return static_cast<int>(key & 0x3fffffff); }
+TALUS_HD inline ContactKind key_kind(ContactKey key) { return static_cast<ContactKind>(key >> 60); }
+TALUS_HD inline bool is_wall_kind(ContactKind kind) { return kind >= ContactKind::polyhedron_wall; }
+
+/// Candidate pairs and what they carry from step to step, one entry each (n_contacts). Optional columns have length 0
+/// where the scene has no use for them.
+struct ContactColumns {
+  DeviceVector<ContactKey> key;     // ascending
+  DeviceVector<Vec3> force;         // on a, world frame [N]
+  DeviceVector<Vec3> torque_a;      // on a about a's centre, world frame [N m]
+  DeviceVector<Vec3> torque_b;      // on b about b's centre (a wall's rotation centre), world frame [N m]
+  DeviceVector<Vec3> point;         // contact point, world frame [m]
+  DeviceVector<Real> depth;         // largest depth, 0 if not touching [m]
+  DeviceVector<Real> peak_overlap;  // since last read: depth / diameter of the smaller body [-]
+  DeviceVector<Real> peak_rate;     // since last read: stiffness / effective mass [1/s2]
+  DeviceVector<char> is_truncated;  // a clipped polygon did not fit
+  DeviceVector<int> cache_begin;    // first entry in separating, polyhedron pairs
+  DeviceVector<SeparatingPlane> separating;  // one per pair of parts, all candidate pairs end to end
+
+  // With friction.
+  DeviceVector<Vec3> tangential_displacement;  // of the spring, world frame [m]
+
+  // With a ledger.
+  DeviceVector<Real> elastic_work;       // recoverable, done against the elastic normal force since touch [J]
+  DeviceVector<Real> tangential_energy;  // in the tangential spring [J]
+  DeviceVector<Real> loss_normal;        // dissipated since last read [J]
+  DeviceVector<Real> loss_shear;         // [J]
+  DeviceVector<Real> wall_work;          // done by the wall on the body since last read [J]
+  DeviceVector<Vec3> last_elastic_force;     // on a, at the end of the last step [N]
+  DeviceVector<Vec3> last_elastic_torque_a;  // [N m]
+  DeviceVector<Vec3> last_elastic_torque_b;  // [N m]
+  DeviceVector<Vec3> last_damping_force;     // on a [N]
+  DeviceVector<Vec3> last_friction_force;    // on a [N]
+
+  // With walls; zero for pairs of bodies.
+  DeviceVector<Vec3> wall_impulse;          // on the wall since last read [N s]
+  DeviceVector<Vec3> wall_angular_impulse;  // about its rotation centre [N m s]
+};
+
+struct ContactView {
+  const ContactKey* key;
+  Vec3* force;
+  Vec3* torque_a;
+  Vec3* torque_b;
+  Vec3* point;
+  Real* depth;
+  Real* peak_overlap;
+  Real* peak_rate;
+  char* is_truncated;
+  int* cache_begin;
+  SeparatingPlane* separating;
+  Vec3* tangential_displacement;
+  Real* elastic_work;
+  Real* tangential_energy;
+  Real* loss_normal;
+  Real* loss_shear;
+  Real* wall_work;
+  Vec3* last_elastic_force;
+  Vec3* last_elastic_torque_a;
+  Vec3* last_elastic_torque_b;
+  Vec3* last_damping_force;
+  Vec3* last_friction_force;
+  Vec3* wall_impulse;
+  Vec3* wall_angular_impulse;
+};
+
+ContactView view(ContactColumns& columns);
+
+/// Which optional columns a scene has.
+struct ContactFeatures {
+  bool has_friction = false;
+  bool has_ledger = false;
+  bool has_walls = false;
+  bool has_polyhedra = false;
+};
+
+/// All columns for `count` contacts, zero.
+void resize_columns(ContactColumns& columns, int count, const ContactFeatures& features);
+
+}  // namespace dem_gpu

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <thrust/copy.h>
+#include <thrust/device_vector.h>
+
+#include <span>
+#include <vector>
+
+namespace dem_gpu {
+
+/// A column: memory of the device the engine runs on (host memory with the CPU back ends).
+template <class T>
+using DeviceVector = thrust::device_vector<T>;
+
+template <class T>
+T* pointer(DeviceVector<T>& column) {
+  return thrust::raw_pointer_cast(column.data());
+}
+template <class T>
+const T* pointer(const DeviceVector<T>& column) {
+  return thrust::raw_pointer_cast(column.data());
+}
+
+template <class T>
+std::vector<T> to_host(const DeviceVector<T>& column) {
+  std::vector<T> values(column.size());
+  thrust::copy(column.begin(), column.end(), values.begin());
+  return values;
+}
+
+template <class T>
+void assign(DeviceVector<T>& column, std::span<const T> values) {
+  column.resize(values.size());
+  thrust::copy(values.begin(), values.end(), column.begin());
+}
+template <class T>
+void assign(DeviceVector<T>& column, const std::vector<T>& values) {
+  assign(column, std::span<const T>(values));
+}
+
+}  // namespace dem_gpu

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dem_gpu/core/quaternion.h"
+#include "dem_gpu/shapes/shape_columns.h"
+
+namespace dem_gpu {
+
+/// x_target = scale * rotation * x_source + translation, between the unscaled body frames of two bodies. Contact geometry
+/// is computed there, so its accuracy does not depend on where the bodies are in the world.
+struct FrameChange {
+  Mat3 rotation;
+  Vec3 translation;
+  Real scale = 1;
+
+  TALUS_HD Vec3 point(const Vec3& x) const { return scale * (rotation * x) + translation; }
+  TALUS_HD Vec3 direction(const Vec3& x) const { return rotation * x; }
+};
+
+/// Pose of a body: x_world = scale * rotation * x + position.
+struct Pose {
+  Mat3 rotation;
+  Vec3 position;
+  Real scale = 1;
+};
+
+/// From b's unscaled body frame to a's.
+TALUS_HD inline FrameChange frame_change(const Pose& a, const Pose& b) {
+  return {transpose_times(a.rotation, b.rotation),
+          (1 / a.scale) * transpose_times(a.rotation, b.position - a.position), b.scale / a.scale};
+}
+
+/// One convex part with pointers into the shape columns.
+struct PartView {
+  const PartRange& range;
+  const Vec3* vertices;
+  const HalfSpace* planes;
+  const FaceCorners* faces;
+  const std::uint8_t* corners;
+  const HalfSpace* depth_planes;
+};
+
+TALUS_HD inline PartView part_view(const ShapeView& shapes, int part) {
+  const PartRange& range = shapes.parts[part];
+  return {range,          shapes.vertices + range.first_vertex, shapes.planes + range.first_face, shapes.faces + range.first_face,
+          shapes.corners, shapes.depth_planes + range.first_depth_plane};
+}
+
+}  // namespace dem_gpu

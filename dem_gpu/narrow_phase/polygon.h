@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dem_gpu/core/host_device.h"
+#include "dem_gpu/core/vec3.h"
+#include "dem_gpu/shapes/shape_columns.h"
+
+namespace dem_gpu {
+
+/// Corners a clipped face may have: a face has at most kMaxFaceCorners, and each plane that cuts it adds at most one.
+inline constexpr int kMaxPolygonCorners = 64;
+
+/// Planar convex polygon.
+struct Polygon {
+  Vec3 corner[kMaxPolygonCorners];
+  int count = 0;
+  bool is_truncated = false;  // a corner did not fit: reported by the host, never dropped in silence
+};
+
+TALUS_HD inline void append(Polygon& polygon, const Vec3& corner) {
+  if (polygon.count < kMaxPolygonCorners)
+    polygon.corner[polygon.count++] = corner;
+  else
+    polygon.is_truncated = true;
+}
+
+TALUS_HD inline Real depth_below(const HalfSpace& plane, const Vec3& x) { return plane.offset - dot(plane.normal, x); }
+
+/// The piece of `polygon` inside the half-space (its normal need not be a unit vector).
+/// Sutherland & Hodgman, Commun. ACM 17 (1974) 32-42.
+TALUS_HD inline void clip(const Polygon& polygon, const HalfSpace& half_space, Polygon& clipped) {
+  clipped.count = 0;
+  clipped.is_truncated = polygon.is_truncated;
+  if (polygon.count == 0) return;
+  Vec3 previous = polygon.corner[polygon.count - 1];
+  Real previous_depth = depth_below(half_space, previous);
+  for (int c = 0; c < polygon.count; ++c) {
+    const Vec3 current = polygon.corner[c];
+    const Real depth = depth_below(half_space, current);
+    if ((depth > 0 && previous_depth < 0) || (depth < 0 && previous_depth > 0))
+      append(clipped, previous + (previous_depth / (previous_depth - depth)) * (current - previous));
+    if (depth >= 0) append(clipped, current);
+    previous = current;
+    previous_depth = depth;
+  }
+  if (clipped.count < 3) clipped.count = 0;
+}
+
+}  // namespace dem_gpu

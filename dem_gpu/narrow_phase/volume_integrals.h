@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+
+#include "dem_gpu/contacts/elastic_contact.h"
+#include "dem_gpu/narrow_phase/part_overlap.h"
+
+namespace dem_gpu {
+
+/// Overlap integrals V, S, M of two bodies in a's unscaled body frame, additive over part pairs: inner faces are visited
+/// too and cancel. Feng, Comput. Methods Appl. Mech. Eng. 373 (2021) 113493; divergence theorem about a point of the
+/// overlap, not the world's origin.
+struct VolumeIntegrals {
+  static constexpr bool kNeedsInnerFaces = true;
+
+  Real volume = 0;      // V [m3]
+  Vec3 area;            // S = integral over a's surface in b of n dA [m2]
+  Vec3 area_moment;     // M = integral over the same of x cross n dA, about a's centre [m3]
+  Vec3 first_moment;    // integral of (x - reference) dV [m4]
+  Vec3 reference;       // a point of the overlap [m]
+  bool has_reference = false;
+
+  TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, const PartView&, const FrameChange& b_to_a) {
+    add_volume(polygon, b_to_a.direction(plane_b.normal));
+  }
+
+  TALUS_HD void add_surface_a(Polygon& polygon, const HalfSpace& plane_a, const PartView&, const FrameChange& b_to_a) {
+    for (int c = 0; c < polygon.count; ++c) polygon.corner[c] = b_to_a.point(polygon.corner[c]);
+    add_volume(polygon, plane_a.normal);
+    const Vec3 a = polygon.corner[0];
+    for (int c = 2; c < polygon.count; ++c) {
+      const Vec3 b = polygon.corner[c - 1], d = polygon.corner[c];
+      const Real triangle = Real(0.5) * dot(cross(b - a, d - a), plane_a.normal);
+      area += triangle * plane_a.normal;
+      area_moment += cross((triangle / 3) * (a + b + d), plane_a.normal);
+    }
+  }
+
+  TALUS_HD Vec3 centroid() const { return volume > 0 ? reference + (1 / volume) * first_moment : reference; }
+
+  /// F = k V n at the centroid of the overlap, n along S.
+  TALUS_HD bool to_contact(const OverlapVolume& law, const Pose& a, ElasticContact& contact) const {
+    const Real area_norm = norm(area);
+    if (!(volume > 0) || !(area_norm > 0)) return false;
+    const Real square = a.scale * a.scale, cube = square * a.scale;
+    const Vec3 branch = a.scale * (a.rotation * centroid());
+    contact.force = (-law.stiffness * cube * volume / area_norm) * (a.rotation * area);
+    contact.torque_a = cross(branch, contact.force);
+    contact.point = a.position + branch;
+    contact.stiffness = law.stiffness * square * area_norm;
+    contact.depth = a.scale * volume / area_norm;  // mean depth over the contact's area
+    return set_normal(contact);
+  }
+
+ private:
+  TALUS_HD void add_volume(const Polygon& polygon, const Vec3& normal) {
+    if (!has_reference) reference = polygon.corner[0], has_reference = true;
+    const Vec3 a = polygon.corner[0] - reference;
+    const Real height = dot(a, normal);  // the same over the plane of the polygon
+    for (int c = 2; c < polygon.count; ++c) {
+      const Vec3 b = polygon.corner[c - 1] - reference, d = polygon.corner[c] - reference;
+      const Real triangle = Real(0.5) * dot(cross(b - a, d - a), normal);
+      volume += triangle * height / 3;
+      // Pyramid to the reference point: its centroid lies at 3/4 of the way to the base's.
+      first_moment += (triangle * height / 12) * (a + b + d);
+    }
+  }
+};
+
+}  // namespace dem_gpu

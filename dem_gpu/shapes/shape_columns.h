@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "dem_gpu/core/device_vector.h"
+#include "dem_gpu/core/vec3.h"
+#include "dem_gpu/scene.h"
+
+namespace dem_gpu {
+
+/// Half-space boundary: inside where dot(normal, x) <= offset. Depth below it is offset - dot(normal, x).
+struct HalfSpace {
+  Vec3 normal;
+  Real offset = 0;
+};
+
+struct PartRange {
+  int first_vertex = 0, vertex_count = 0;
+  int first_face = 0, face_count = 0;    // outer faces first
+  int outer_face_count = 0;
+  int first_depth_plane = 0, depth_plane_count = 0;
+  Vec3 centre;      // of the bounding sphere, body frame [m]
+  Real radius = 0;  // of the bounding sphere [m]
+};
+
+struct FaceCorners {
+  int first = 0;  // into corners
+  int count = 0;
+};
+
+struct ShapeRange {
+  int first_part = 0, part_count = 0;  // 0 parts: a sphere
+  Real sphere_radius = 0;              // [m]
+  Real bounding_radius = 0;            // about the centre of mass [m]
+  Real volume = 0;                     // [m3]
+  Real equivalent_diameter = 0;        // of the sphere of equal volume [m]
+  Vec3 inertia;                        // principal, density 1 [m5]
+};
+
+/// Constant during a run, all at scale 1 in the body frame. Walls that are volume objects stand after the scene's shapes.
+struct ShapeColumns {
+  DeviceVector<ShapeRange> shapes;      // n_shapes
+  DeviceVector<PartRange> parts;        // n_parts
+  DeviceVector<Vec3> vertices;          // n_vertices [m]
+  DeviceVector<HalfSpace> planes;       // n_faces
+  DeviceVector<FaceCorners> faces;      // n_faces
+  DeviceVector<std::uint8_t> corners;   // vertex of the part, per corner of a face
+  DeviceVector<HalfSpace> depth_planes; // n_depth_planes: the body's depth field in a part is the least depth below these
+};
+
+struct ShapeView {
+  const ShapeRange* shapes;
+  const PartRange* parts;
+  const Vec3* vertices;
+  const HalfSpace* planes;
+  const FaceCorners* faces;
+  const std::uint8_t* corners;
+  const HalfSpace* depth_planes;
+};
+
+/// `depth_cap` in equivalent diameters: a constant term of every depth field.
+ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, Real depth_cap);
+ShapeView view(const ShapeColumns& columns);
+
+}  // namespace dem_gpu

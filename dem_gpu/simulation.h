@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "dem_gpu/scene.h"
+#include "dem_gpu/snapshot.h"
+
+namespace dem_gpu {
+
+/// Energy accounts since time 0 [J]. Balance: input = stored + lost, up to `imbalance`.
+struct EnergyLedger {
+  double kinetic = 0;
+  double gravitational = 0;  // potential, relative to time 0
+  double elastic_normal = 0;
+  double elastic_tangential = 0;
+  double wall_work = 0;  // done by moving objects on the bodies
+  double removed = 0;    // kinetic + gravitational + elastic of bodies that left by the outflow
+  double initial = 0;    // kinetic at time 0
+  struct ClassLoss {
+    std::string contact_class;  // "particle-particle", "particle-shell", ...
+    double normal = 0;          // dissipated by damping
+    double shear = 0;           // dissipated by friction
+  };
+  std::vector<ClassLoss> dissipation;
+
+  double dissipated() const;
+  /// initial + wall_work - (kinetic + gravitational + elastic + removed + dissipated).
+  double imbalance() const;
+  /// What the balance is compared with: the energy put in so far, i.e. |initial| + energy released by gravity +
+  /// positive wall work [J].
+  double throughput = 0;
+};
+
+/// Force and torque that the bodies exert on a wall, averaged over the time since the last row.
+struct WallLoad {
+  Vec3 force;        // [N]
+  Vec3 torque;       // about the motion's rotation centre [N m]
+  double power = 0;  // that the wall's motion puts into the bodies [W]
+  double work = 0;   // since time 0 [J]
+};
+
+/// Things a run must own up to.
+struct RunQuality {
+  double largest_overlap = 0;             // depth / equivalent diameter of the smaller body, over the run [-]
+  double smallest_steps_per_contact = 0;  // from the stiffness really met [-]
+  std::int64_t list_rebuilds = 0;
+};
+
+struct BulkState {
+  int active_bodies = 0;
+  double active_mass = 0;  // [kg]
+  int removed_bodies = 0;
+  double removed_mass = 0;  // [kg]
+  int contacts = 0;         // that carry force
+};
+
+/// One DEM run. Deterministic: the same scene gives the same bytes whatever the thread count.
+class Simulation {
+ public:
+  /// Throws catalog::InputError if check(scene) does.
+  explicit Simulation(const Scene& scene);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+
+  /// Runs n steps. Throws std::runtime_error naming step and body if a body's state is no longer finite or one moves
+  /// more than half its size in a step.
+  void advance(std::int64_t steps);
+
+  double time() const;
+  double time_step() const;
+  std::int64_t step() const;
+  std::vector<std::string> pass_names() const;
+
+  EnergyLedger ledger() const;              // all zero if the scene has no ledger
+  std::vector<WallLoad> take_wall_loads();  // n_walls; restarts the averages
+  RunQuality quality() const;
+  BulkState bulk() const;
+
+  Snapshot snapshot() const;
+  RunGeometry geometry() const;
+
+  /// The whole state, bit for bit. write_checkpoint writes beside, flushes, keeps the last one as
+  /// checkpoint_previous.h5.
+  void write_checkpoint(const std::filesystem::path& run_folder) const;
+  /// Goes on from the checkpoint in run_folder (the previous one if the last is damaged). Throws catalog::InputError if
+  /// it belongs to another scene, version or precision.
+  void read_checkpoint(const std::filesystem::path& run_folder);
+
+ private:
+  struct Engine;
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace dem_gpu

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "dem_gpu/core/device_vector.h"
+#include "dem_gpu/core/quaternion.h"
+#include "dem_gpu/scene.h"
+#include "dem_gpu/snapshot.h"
+
+namespace dem_gpu {
+
+/// A wall at one instant, world frame. Which fields count depends on the kind.
+struct WallRecord {
+  WallKind kind = WallKind::plane;
+  bool is_present = true;
+  int shape = -1;         // volume objects: row of ShapeColumns
+  int material = 0;
+  Vec3 point;             // plane point, disc centre, base of cylinder and cone; position of a volume object [m]
+  Vec3 direction;         // normal or axis, unit
+  Real length = 0;        // [m]
+  Real base_radius = 0;   // [m]
+  Real top_radius = 0;    // [m]
+  Real bounding_radius = 0;  // volume objects, about point [m]
+  Quaternion orientation;    // volume objects
+  Vec3 rotation_centre;      // where the wall's torque is taken [m]
+  Vec3 velocity;             // at the end of the step, of the material point at rotation_centre [m/s]
+  Vec3 angular_velocity;     // [rad/s]
+};
+
+/// Walls as functions of time: no state of their own, so a resumed run finds them where they were.
+class WallSet {
+ public:
+  /// `first_shape`: row of the first volume object's shape.
+  WallSet(const Scene& scene, int first_shape);
+
+  /// Moves every wall to `time`; true if one came or went.
+  bool move_to(Real time);
+  /// How far any wall's surface can have moved between two times, walls that map onto themselves left out [m].
+  Real largest_displacement(Real from, Real to) const;
+
+  int count() const { return static_cast<int>(now_.size()); }
+  const std::vector<WallRecord>& records() const { return now_; }
+  const WallRecord* device() const { return pointer(device_); }
+  Vec3 translation(int wall) const;       // x_world(t) = rotation * x_world(0) + translation
+  Quaternion rotation(int wall) const;
+  bool has_moving_walls() const;
+
+ private:
+  std::vector<Wall> walls_;
+  std::vector<WallRecord> at_start_;
+  std::vector<WallRecord> now_;
+  std::vector<Real> reach_;   // largest distance of the wall's surface from its axis of rotation [m]; 0: maps onto itself
+  DeviceVector<WallRecord> device_;
+  Real time_ = 0;
+};
+
+}  // namespace dem_gpu

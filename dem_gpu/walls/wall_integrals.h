@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dem_gpu/contacts/elastic_contact.h"
+#include "dem_gpu/narrow_phase/part_frame.h"
+#include "dem_gpu/scene.h"
+#include "dem_gpu/walls/wall_surface.h"
+
+namespace dem_gpu {
+
+/// Integrals of a wall's depth over the part of a body's outer surface inside the wall, world frame about `centre`:
+/// force direction = - integral of depth n dA. The wall's field alone carries the contact (U = 2 k integral of the wall's
+/// depth over the overlap), so a flat face meets a wall as it meets another flat face. Planes are exact; on curved walls
+/// each face is cut into triangles about its centre on which the depth is taken as linear (error of second order in
+/// face size over wall radius).
+struct WallIntegrals {
+  Vec3 force;           // [m3]
+  Vec3 moment;          // [m4]
+  Real weight = 0;      // [m3]
+  Vec3 weighted_point;  // [m4]
+  Vec3 area;            // vector area of the surface inside [m2]
+  Real largest_depth = 0;
+
+  /// Corner of a triangle with the wall's field there, position relative to the body's centre.
+  struct Sample {
+    Vec3 position;
+    WallField field;
+  };
+
+  TALUS_HD void add_triangle(const Sample& a, const Sample& b, const Sample& c, const Vec3& normal) {
+    constexpr int kMaxCorners = 6;  // a triangle cut by three fields
+    Sample buffer[2][kMaxCorners] = {{a, b, c}};
+    int count = 3, current = 0;
+    for (int field = 0; field < 3 && count >= 3; ++field) {
+      const Sample* from = buffer[current];
+      Sample* to = buffer[1 - current];
+      int kept = 0;
+      for (int i = 0; i < count; ++i) {
+        const Sample& here = from[i];
+        const Sample& next = from[(i + 1) % count];
+        const Real here_value = value(here, field), next_value = value(next, field);
+        if (here_value >= 0) to[kept++] = here;
+        if ((here_value > 0 && next_value < 0) || (here_value < 0 && next_value > 0))
+          to[kept++] = between(here, next, here_value / (here_value - next_value));
+      }
+      count = kept;
+      current = 1 - current;
+    }
+    for (int i = 2; i < count; ++i) add_linear(buffer[current][0], buffer[current][i - 1], buffer[current][i], normal);
+  }
+
+  /// `share` of 2 k: 1 for the depth potential.
+  TALUS_HD bool to_contact(Real stiffness, const Vec3& centre, ElasticContact& contact) const {
+    if (!(weight > 0)) return false;
+    contact.force = stiffness * force;
+    contact.torque_a = stiffness * moment;
+    contact.point = centre + (1 / weight) * weighted_point;
+    contact.stiffness = stiffness * norm(area);
+    contact.depth = largest_depth;
+    return set_normal(contact);
+  }
+
+ private:
+  TALUS_HD static Real value(const Sample& sample, int field) {
+    return field == 0 ? sample.field.depth : field == 1 ? sample.field.from_base : sample.field.from_top;
+  }
+  TALUS_HD static Sample between(const Sample& a, const Sample& b, Real t) {
+    const auto mix = [&](Real x, Real y) { return x + t * (y - x); };
+    return {a.position + t * (b.position - a.position),
+            {mix(a.field.depth, b.field.depth), mix(a.field.from_base, b.field.from_base),
+             mix(a.field.from_top, b.field.from_top)}};
+  }
+  TALUS_HD void add_linear(const Sample& a, const Sample& b, const Sample& c, const Vec3& normal) {
+    const Real triangle = Real(0.5) * dot(cross(b.position - a.position, c.position - a.position), normal);
+    const Real da = a.field.depth, db = b.field.depth, dc = c.field.depth, total = da + db + dc;
+    const Real depth = triangle * total / 3;
+    const Vec3 depth_moment = (triangle / 12) * (da * a.position + db * b.position + dc * c.position +
+                                                 total * (a.position + b.position + c.position));
+    force -= depth * normal;
+    moment -= cross(depth_moment, normal);
+    weight += depth;
+    weighted_point += depth_moment;
+    area += triangle * normal;
+    largest_depth = std::max(largest_depth, std::max(da, std::max(db, dc)));
+  }
+};
+
+/// Adds one convex part of a body at `pose` to the wall's integrals.
+TALUS_HD inline void integrate_part_in_wall(const PartView& part, const Pose& pose, const WallRecord& wall,
+                                            WallIntegrals& integrals) {
+  const Vec3 centre = pose.scale * (pose.rotation * part.range.centre) + pose.position;
+  if (wall_field(wall, centre).depth + pose.scale * part.range.radius <= 0) return;
+  const auto sample = [&](const Vec3& x) {
+    const Vec3 relative = pose.scale * (pose.rotation * x);
+    return WallIntegrals::Sample{relative, wall_field(wall, pose.position + relative)};
+  };
+  WallIntegrals::Sample vertices[kMaxPartVertices];
+  bool touches = false;
+  for (int v = 0; v < part.range.vertex_count; ++v) {
+    vertices[v] = sample(part.vertices[v]);
+    touches |= vertices[v].field.depth > 0;
+  }
+  if (!touches) return;
+  const bool is_curved = wall.kind == WallKind::cylinder || wall.kind == WallKind::cone;
+  for (int f = 0; f < part.range.outer_face_count; ++f) {
+    const FaceCorners face = part.faces[f];
+    const std::uint8_t* corner = part.corners + face.first;
+    bool face_touches = false;
+    Vec3 middle;
+    for (int c = 0; c < face.count; ++c) {
+      face_touches |= vertices[corner[c]].field.depth > 0;
+      middle += part.vertices[corner[c]];
+    }
+    if (!face_touches) continue;
+    const Vec3 normal = pose.rotation * part.planes[f].normal;
+    if (is_curved) {
+      const WallIntegrals::Sample centre_sample = sample((Real(1) / face.count) * middle);
+      for (int c = 0; c < face.count; ++c)
+        integrals.add_triangle(centre_sample, vertices[corner[c]], vertices[corner[(c + 1) % face.count]], normal);
+    } else {
+      for (int c = 2; c < face.count; ++c)
+        integrals.add_triangle(vertices[corner[0]], vertices[corner[c - 1]], vertices[corner[c]], normal);
+    }
+  }
+}
+
+}  // namespace dem_gpu

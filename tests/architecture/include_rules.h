@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace architecture {
+
+/// Text of each source file by its path from the repository root, with '/' between folders.
+using SourceTree = std::map<std::string, std::string>;
+
+/// Headers and sources of the module folders below `root`.
+SourceTree read_modules(const std::filesystem::path& root);
+
+struct Include {
+  int line = 0;
+  std::string path;
+  bool is_quoted = false;
+};
+/// The #include lines of a source, those in comments left out.
+std::vector<Include> includes_of(const std::string& text);
+
+/// One line each, "FILE:LINE: what is wrong", for includes that the arrows between modules do not allow.
+std::vector<std::string> violations(const SourceTree& tree);
+
+}  // namespace architecture
