@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gtest/gtest.h>
 
-#include "../../unit/decomposition/partition_checks.h"
-#include "../../unit/decomposition/solids.h"
 #include "decomposition/convex_decomposition.h"
 #include "decomposition/geometry/random.h"
+#include "tests/support/partition_checks.h"
+#include "tests/support/solids.h"
 
 namespace decomposition {
 namespace {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "catalog/input_error.h"
-#include "partition_checks.h"
-#include "solids.h"
+#include "tests/support/partition_checks.h"
+#include "tests/support/solids.h"
 
 namespace decomposition {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "solids.h"
+#include "tests/support/solids.h"
 
 namespace decomposition {
 namespace {

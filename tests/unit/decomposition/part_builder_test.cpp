@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "decomposition/assembly/face_kinds.h"
-#include "partition_checks.h"
+#include "tests/support/partition_checks.h"
 
 namespace decomposition {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "decomposition/fit/column_measure.h"
 #include "decomposition/fit/part_finish.h"
-#include "solids.h"
+#include "tests/support/solids.h"
 
 namespace decomposition {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "decomposition/solid/solid.h"
-#include "solids.h"
+#include "tests/support/solids.h"
 
 namespace decomposition {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "decomposition/geometry/random.h"
-#include "solids.h"
+#include "tests/support/solids.h"
 
 namespace decomposition {
 namespace {
