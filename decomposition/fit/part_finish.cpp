@@ -10,8 +10,8 @@
 namespace decomposition {
 namespace {
 
-constexpr int kSettlingSteps = 60;        // after welding
-constexpr double kSettlingFirst = 0.004;  // share of the diagonal
+constexpr int kSettlingSteps = 120;       // after welding
+constexpr double kSettlingFirst = 0.006;  // share of the diagonal
 constexpr int kVolumeRounds = 8;
 constexpr double kLargestOffset = 0.02;    // of the volume correction / size of the part
 constexpr double kVolumeTolerance = 1e-6;  // relative
@@ -105,7 +105,8 @@ PartFit tidy(const Solid& solid, const std::vector<Plane>& cell, const Vec3& cen
   FitPlan settling = plan;
   settling.steps = kSettlingSteps;
   settling.first_step = kSettlingFirst;
-  settling.revives = false;
+  // Welding has left vertices over: start them inside, the fit puts them where rock stands out.
+  while (static_cast<int>(fit.points.size()) < plan.vertices) fit.points.push_back(centre);
   if (PartFit settled = fit_part(solid, cell, centre, fit.points, settling); settled.is_valid())
     fit.points = welded(std::move(settled.points), cell);
   snap(fit.points, cell, centre);

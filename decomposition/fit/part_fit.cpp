@@ -103,11 +103,28 @@ class Fitter {
     steering_ = std::clamp(steering_, -kLargestSteering, kLargestSteering);
   }
 
-  /// Puts vertices that are no hull vertices any more on the faces with most rock outside, half-way up.
-  void revive_dead_vertices() {
+  /// Whether all corners lie on one cut plane, as near as the fit keeps them to it.
+  bool is_on_cut(const std::array<int, 3>& face) const {
+    return std::any_of(cell_.begin(), cell_.end(), [&](const Plane& plane) {
+      return std::all_of(face.begin(), face.end(),
+                         [&](int v) { return plane.signed_distance(at(v)) > -4 * kCellMargin * solid_.diagonal(); });
+    });
+  }
+
+  /// Vertices that fell inside the hull, and those in the midst of a cut face, which shape nothing either.
+  void find_dead_vertices() {
+    std::vector<char> is_useful(points_.size(), 0);
+    for (const auto& face : hull_.faces())
+      if (!is_on_cut(face))
+        for (const int v : face) is_useful[static_cast<std::size_t>(v)] = 1;
     dead_.clear();
     for (std::size_t v = 0; v < points_.size(); ++v)
-      if (!hull_.is_vertex(static_cast<int>(v))) dead_.push_back(v);
+      if (!is_useful[v]) dead_.push_back(v);
+  }
+
+  /// Puts dead vertices on the faces with most rock outside, half-way up.
+  void revive_dead_vertices() {
+    find_dead_vertices();
     if (dead_.empty()) return;
     struct Bump {
       double volume;
@@ -115,7 +132,9 @@ class Fitter {
     };
     std::vector<Bump> bumps;
     const double rise = solid_.cell();
-    for (const auto& [ia, ib, ic] : hull_.faces()) {
+    for (const auto& face : hull_.faces()) {
+      if (is_on_cut(face)) continue;
+      const auto [ia, ib, ic] = face;
       const Vec3 area_normal = 0.5 * cross(at(ib) - at(ia), at(ic) - at(ia));
       const double area = norm(area_normal);
       const Vec3 middle = (1 / 3.0) * (at(ia) + at(ib) + at(ic));
