@@ -41,7 +41,9 @@ struct RejectedInput {
 };
 
 /// One SQLite file of shapes. Every store is one transaction; SQLite stays out of this header.
-/// Throws InputError for a file that is not a Talus catalogue, is newer than this program, or stays locked.
+/// Throws InputError for a file that is not a Talus catalogue, is newer than this program, or stays locked. A file of
+/// an older schema is brought forward when opened read_write, after a copy was kept as FILE.schema-N; read_only reads
+/// it as it is. Doubles come back bit for bit, save that a descriptor, check or error figure of -0.0 comes back as 0.0.
 class ShapeCatalog {
  public:
   enum class Access { read_only, read_write };  // read_write makes the file if it is missing

@@ -39,7 +39,7 @@ command -v dpkg-query > /dev/null || fail "needs Debian 12 or one of its kin (no
 
 missing=()
 for package in "${packages[@]}"; do
-  # An architecture-qualified or virtual name does not matter here: all are plain packages.
+  # One line for each architecture the package is known for; one that is installed is enough.
   state=$(dpkg-query --show --showformat='${db:Status-Status}\n' "$package" 2> /dev/null | sort -u | grep -x installed || true)
   [[ $state == installed ]] || missing+=("$package")
 done

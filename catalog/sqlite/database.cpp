@@ -3,8 +3,6 @@
 
 #include <stdexcept>
 
-#include "catalog/input_error.h"
-
 namespace catalog::sqlite {
 
 Database::Database(const std::filesystem::path& path, int flags) : path_(path) {
@@ -38,7 +36,10 @@ void Database::copy_from(const Database& source) const {
 void Database::fail(int result) const {
   const std::string file = path_.string();
   const std::string said = handle() ? sqlite3_errmsg(handle()) : sqlite3_errstr(result);
-  if (result == SQLITE_READONLY_ROLLBACK || result == SQLITE_READONLY_RECOVERY) throw NeedsRollback();
+  if (result == SQLITE_READONLY_ROLLBACK || result == SQLITE_READONLY_RECOVERY)
+    throw NeedsRollback(file +
+                        ": its last write was cut off and must be undone; expected write permission for the file "
+                        "and its folder; open it once where you have it");
   if (result == SQLITE_IOERR_SHORT_READ) result = SQLITE_CORRUPT;
   switch (result & 0xff) {
     case SQLITE_BUSY:
@@ -51,6 +52,9 @@ void Database::fail(int result) const {
     case SQLITE_FORMAT:
       throw InputError(file + ": is damaged or cut short (" + said +
                        "); expected a whole catalogue; restore it from a copy");
+    case SQLITE_ERROR:  // the statements are fixed, so what they do not fit is the file
+      throw InputError(file + ": its tables are not those of a Talus catalogue (" + said +
+                       "); expected one that nothing else has changed; restore it from a copy");
     case SQLITE_READONLY:
     case SQLITE_PERM:
     case SQLITE_AUTH:

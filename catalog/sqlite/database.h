@@ -7,11 +7,18 @@
 #include <memory>
 #include <string>
 
+#include "catalog/input_error.h"
+
 namespace catalog::sqlite {
 
 // How long a statement waits for another program's lock [ms]: longer than any store here takes, short enough to tell a
 // user who waits.
 constexpr int kBusyTimeout = 3000;
+
+/// A killed writer's work must first be undone, which a read-only connection cannot do.
+struct NeedsRollback : InputError {
+  using InputError::InputError;
+};
 
 /// An open SQLite file; closed on destruction. `flags` are SQLITE_OPEN_...
 class Database {
@@ -37,9 +44,6 @@ class Database {
   std::filesystem::path path_;
   std::unique_ptr<sqlite3, Close> handle_;
 };
-
-/// Thrown where a file must first be rolled back after an interrupted write, which a read-only connection cannot do.
-struct NeedsRollback : std::exception {};
 
 /// A write transaction, rolled back on destruction unless committed.
 class Transaction {

@@ -18,8 +18,9 @@ using namespace test_support;
 
 constexpr int kRounds = 40;
 
-/// Stores shapes for ever, each round again; every figure of one store carries the same generation.
-[[noreturn]] void write_until_killed(const std::filesystem::path& path, int first_generation) {
+/// Stores shapes for ever; every figure of one store carries the same generation. Writes a byte to `started` after
+/// each.
+[[noreturn]] void write_until_killed(const std::filesystem::path& path, int first_generation, int started) {
   ShapeCatalog catalog(path, ShapeCatalog::Access::read_write);
   for (int generation = first_generation;; ++generation) {
     ShapeRecord shape = sample_shape("rock_" + std::to_string(generation % 5));
@@ -31,6 +32,7 @@ constexpr int kRounds = 40;
     level.error.overlap = generation;
     for (ConvexPart& part : level.parts) part.vertices[0][0] = generation;
     catalog.store_levels(id, {level});
+    if (write(started, "x", 1) != 1) _exit(1);
   }
 }
 
@@ -66,19 +68,29 @@ TEST(KilledWriter, LeavesTheCatalogueWhole) {
   const TemporaryFolder folder;
   std::mt19937 random(7);
   for (int round = 0; round < kRounds; ++round) {
+    int started[2];
+    ASSERT_EQ(pipe(started), 0);
     const pid_t child = fork();
     ASSERT_GE(child, 0);
-    if (child == 0) write_until_killed(folder / "ore.talus", 1000 * round);
-    usleep(random() % 30000);  // [us]; the first falls into the making of the file
+    if (child == 0) write_until_killed(folder / "ore.talus", 1000 * round + round, started[1]);
+    close(started[1]);
+    // Even rounds may fall into the making or opening of the file, odd ones into the stores that follow.
+    char byte = 0;
+    if (round % 2 == 1) {
+      ASSERT_EQ(read(started[0], &byte, 1), 1) << "the writer stopped by itself";
+    }
+    usleep(random() % 20000);  // [us]
     kill(child, SIGKILL);
     int status = 0;
     waitpid(child, &status, 0);
+    close(started[0]);
     ASSERT_TRUE(WIFSIGNALED(status)) << "the writer stopped by itself";
     if (!std::filesystem::exists(folder / "ore.talus")) continue;  // killed before its first byte
     const ShapeCatalog catalog(folder / "ore.talus", ShapeCatalog::Access::read_write);
     expect_whole(catalog);
     ASSERT_EQ(integrity(folder / "ore.talus"), "ok");
   }
+  // The generations of the odd rounds alone reach every name.
   EXPECT_EQ(ShapeCatalog(folder / "ore.talus", ShapeCatalog::Access::read_only).select("").size(), 5u);
 }
 
