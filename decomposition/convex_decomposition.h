@@ -22,7 +22,8 @@ struct DecompositionOptions {
 
 /// Figures of a level beside its error.
 struct LevelFigures {
-  double ledge_area = 0;          // area on the cuts that is marked inner but bare, or outer but covered / cut area [-]
+  // Area on the cuts marked inner but bare, or outer but covered, on both sides / covered area of one side [-].
+  double ledge_area = 0;
   double smallest_thickness = 0;  // smallest extent of a part along one of its face normals [m]
   double smallest_volume = 0;     // [m3]
   int vertices = 0, faces = 0;    // in all
@@ -45,6 +46,7 @@ std::vector<catalog::LevelOfDetail> decompose_ladder(const catalog::TriangleMesh
                                                      const std::vector<int>& part_counts,
                                                      const DecompositionOptions& options = {});
 
+/// Figures of finished parts; ledge_area needs the cuts and stays 0 here, a level's provenance has it.
 LevelFigures figures(const std::vector<catalog::ConvexPart>& parts);
 
 /// The options that change the result, as a JSON object; what Provenance::options holds under "options".
