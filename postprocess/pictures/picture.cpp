@@ -65,10 +65,11 @@ vtkSmartPointer<vtkColorTransferFunction> speed_colours(double fastest) {
   return colours;
 }
 
-void set_colour(vtkProperty* property, const Colour& colour) {
+/// `ambient`: share of the colour that shows whatever the light.
+void set_colour(vtkProperty* property, const Colour& colour, double ambient) {
   property->SetColor(colour[0], colour[1], colour[2]);
-  property->SetAmbient(0.18);
-  property->SetDiffuse(0.82);
+  property->SetAmbient(ambient);
+  property->SetDiffuse(1 - ambient);
 }
 
 /// Smoothly shaded where faces meet at a small angle.
@@ -108,7 +109,7 @@ void add_bodies(vtkRenderer* renderer, const RunGeometry& geometry, const Snapsh
   actor->GetMapper()->SetScalarModeToUseCellData();
   actor->GetMapper()->SetLookupTable(colours);
   actor->GetMapper()->UseLookupTableScalarRangeOn();
-  set_colour(actor->GetProperty(), {1, 1, 1});
+  set_colour(actor->GetProperty(), {1, 1, 1}, 0.26);
   actor->GetProperty()->SetSpecular(are_spheres ? 0.55 : 0.06);
   actor->GetProperty()->SetSpecularPower(are_spheres ? 40 : 15);
   renderer->AddActor(actor);
@@ -117,7 +118,7 @@ void add_bodies(vtkRenderer* renderer, const RunGeometry& geometry, const Snapsh
 void add_surface(vtkRenderer* renderer, const Surface& surface, const Colour& colour, double opacity) {
   if (surface.polygon_count() == 0) return;
   const auto actor = shaded_actor(poly_data(surface));
-  set_colour(actor->GetProperty(), colour);
+  set_colour(actor->GetProperty(), colour, 0.45);
   actor->GetProperty()->SetOpacity(opacity);
   renderer->AddActor(actor);
 }
@@ -272,9 +273,9 @@ void add_lights(vtkRenderer* renderer, const PictureView& view) {
     renderer->AddLight(light);
   };
   renderer->AutomaticLightCreationOff();
-  add_light(-0.7, 1.1, 0.78);  // key light from the upper left
-  add_light(1.2, 0.1, 0.26);   // fill
-  add_light(0, 0, 0.16);       // from the eye
+  add_light(-0.7, 1.1, 0.95);  // key light from the upper left
+  add_light(1.2, 0.1, 0.34);   // fill
+  add_light(0, 0, 0.34);       // from the eye
 }
 
 void set_camera(vtkRenderer* renderer, const PictureView& view) {
@@ -296,7 +297,7 @@ void add_ambient_occlusion(vtkRenderer* renderer, const RunGeometry& geometry) {
   renderer->UseSSAOOn();
   renderer->SetSSAORadius(1.1 * size);
   renderer->SetSSAOBias(0.04 * size);
-  renderer->SetSSAOKernelSize(96);
+  renderer->SetSSAOKernelSize(64);
   renderer->SSAOBlurOn();
 }
 

@@ -80,9 +80,11 @@ double speed_scale(const std::vector<dem_gpu::Snapshot>& snapshots) {
   std::nth_element(speeds.begin(), speeds.begin() + static_cast<std::ptrdiff_t>(place), speeds.end());
   const double fastest = speeds[place];
   if (fastest <= 0) return 1;
-  // Two significant digits read well on the scale.
-  const double digit = std::pow(10, std::floor(std::log10(fastest)) - 1);
-  return std::ceil(fastest / digit) * digit;
+  // A round number whose quarters are short as well, for the scale's labels.
+  const double power = std::pow(10, std::floor(std::log10(fastest)));
+  for (const double round : {1.0, 1.2, 1.6, 2.0, 2.4, 3.2, 4.0, 6.0, 8.0})
+    if (fastest <= round * power * (1 + 1e-9)) return round * power;
+  return 10 * power;
 }
 
 }  // namespace

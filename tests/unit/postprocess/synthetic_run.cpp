@@ -109,7 +109,8 @@ std::string row(const std::vector<double>& values) {
   for (const double value : values) {
     char text[40];
     std::snprintf(text, sizeof text, "%.12g", value);
-    line += (line.empty() ? "" : ",") + std::string(text);
+    if (!line.empty()) line += ',';
+    line += text;
   }
   return line + "\n";
 }
