@@ -10,7 +10,7 @@ namespace postprocess {
 
 /// One line of a plot; a value that is not finite breaks the line. x and y have equal sizes.
 struct Curve {
-  std::string label;  // for the legend; empty: not in it
+  std::string label;  // for the legend; empty: not in it, and the colour of the curve before
   std::vector<double> x;
   std::vector<double> y;
   bool is_dashed = false;

@@ -132,6 +132,13 @@ std::string drawn_axes(const Frame& frame, const LinePlot& plot) {
   return axes;
 }
 
+/// A curve without a label belongs to the one before it.
+const char* colour_of(const LinePlot& plot, std::size_t curve) {
+  std::size_t labelled = 0;
+  for (std::size_t c = 1; c <= curve; ++c) labelled += plot.curves[c].label.empty() ? 0 : 1;
+  return kColours[labelled % kColours.size()];
+}
+
 /// Entries side by side under the title, wrapped to the plot's width; returns the rows used.
 int drawn_legend(const LinePlot& plot, double left, std::string& legend) {
   double x = left;
@@ -227,8 +234,7 @@ std::string svg(const LinePlot& plot) {
   if (frame.x.high <= frame.x.low) frame.x.high = frame.x.low + 1;
   frame.y = plot.y_range ? Range{plot.y_range->first, plot.y_range->second} : padded(frame.y);
   std::string page = svg_open(plot.width, plot.height, plot.title) + legend + drawn_axes(frame, plot);
-  for (std::size_t c = 0; c < plot.curves.size(); ++c)
-    page += drawn_curve(frame, plot.curves[c], kColours[c % kColours.size()]);
+  for (std::size_t c = 0; c < plot.curves.size(); ++c) page += drawn_curve(frame, plot.curves[c], colour_of(plot, c));
   return page + "</svg>\n";
 }
 

@@ -41,7 +41,10 @@ NamedPlot power_plot(const MillFigures& mill) {
     plot.curves.push_back({"from the energy ledger", ledger.times, ledger.rates, true});
   }
   const auto [from, to] = std::pair{mill.torque_power.from_time, mill.torque_power.to_time};
-  plot.curves.push_back({"mean over the last " + std::to_string(mill.window.revolutions) + " whole revolutions",
+  const int turns = mill.window.revolutions;
+  plot.curves.push_back({turns == 0   ? std::string("mean of the second half")
+                         : turns == 1 ? std::string("mean of the last whole revolution")
+                                      : "mean of the last " + std::to_string(turns) + " whole revolutions",
                          {from, to},
                          {mill.torque_power.mean, mill.torque_power.mean}});
   return {"power", svg(plot)};

@@ -144,10 +144,12 @@ std::string figure_box(const std::string& value, const std::string& meaning) {
 }
 
 std::string mill_boxes(const MillFigures& mill) {
-  const std::string window = mill.window.revolutions > 0
-                                 ? "mean of the last " + std::to_string(mill.window.revolutions) + " whole revolution" +
-                                       (mill.window.revolutions == 1 ? "" : "s")
-                                 : std::string("mean of the second half (less than one revolution)");
+  const std::string window =
+      mill.window.revolutions > 0
+          ? "mean of the last " + (mill.window.revolutions == 1
+                                       ? std::string("whole revolution")
+                                       : std::to_string(mill.window.revolutions) + " whole revolutions")
+          : std::string("mean of the second half (less than one revolution)");
   std::string boxes = figure_box(with_interval(mill.torque_power, "W"), "power from torque, " + window);
   if (!mill.accounts.times.empty())
     boxes += figure_box(with_interval(mill.ledger_power, "W"), "power from the energy ledger, same time");
@@ -209,18 +211,33 @@ std::string contact_section(const RunFolder& run, const std::vector<dem_gpu::Sna
   if (frames.empty()) return "";
   std::vector<std::size_t> shown{0, frames.size() / 2, frames.size() - 1};
   shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
-  Table table({"time [s]", "bodies", "contacts, body / wall", "neighbours a body", "touching nothing", "force mean [N]",
-               "median", "90 %", "99 %", "overlap median", "99 %", "largest"},
-              0);
+  std::vector<ContactStatistics> statistics;
+  std::vector<std::string> headings{"at time"};
   for (const std::size_t f : shown) {
-    const ContactStatistics s = contact_statistics(run.geometry, frames[f]);
-    table.add({short_number(frames[f].time), std::to_string(s.active_bodies),
-               std::to_string(s.body_contacts) + " / " + std::to_string(s.wall_contacts),
-               short_number(s.coordination_number, 3), std::to_string(s.touching_nothing),
-               short_number(s.force.mean, 3), short_number(s.force.median, 3), short_number(s.force.percentile_90, 3),
-               short_number(s.force.percentile_99, 3), percent(s.overlap.median, 2),
-               percent(s.overlap.percentile_99, 2), percent(s.overlap.largest, 2)});
+    statistics.push_back(contact_statistics(run.geometry, frames[f]));
+    headings.push_back(short_number(frames[f].time) + " s");
   }
+  Table table(headings, 1);
+  const auto add = [&](const char* what, auto value) {
+    std::vector<std::string> cells{what};
+    for (const ContactStatistics& s : statistics) cells.push_back(value(s));
+    table.add(cells);
+  };
+  using Statistics = const ContactStatistics&;
+  add("bodies", [](Statistics s) { return std::to_string(s.active_bodies); });
+  add("contacts between bodies", [](Statistics s) { return std::to_string(s.body_contacts); });
+  add("contacts with walls", [](Statistics s) { return std::to_string(s.wall_contacts); });
+  add("neighbours touched, mean of a body", [](Statistics s) { return short_number(s.coordination_number, 3); });
+  add("bodies touching nothing", [](Statistics s) { return std::to_string(s.touching_nothing); });
+  add("force, mean [N]", [](Statistics s) { return short_number(s.force.mean, 3); });
+  add("force, median [N]", [](Statistics s) { return short_number(s.force.median, 3); });
+  add("force, 90th / 99th percentile [N]", [](Statistics s) {
+    return short_number(s.force.percentile_90, 3) + " / " + short_number(s.force.percentile_99, 3);
+  });
+  add("force, largest [N]", [](Statistics s) { return short_number(s.force.largest, 3); });
+  add("overlap, median", [](Statistics s) { return percent(s.overlap.median, 2); });
+  add("overlap, 99th percentile", [](Statistics s) { return percent(s.overlap.percentile_99, 2); });
+  add("overlap, largest", [](Statistics s) { return percent(s.overlap.largest, 2); });
   return section("Contacts", table.html() + paragraph("Force is the magnitude of normal force and friction together; "
                                                       "overlap is depth over the equivalent diameter of the smaller "
                                                       "body.",
