@@ -18,4 +18,7 @@ struct Machine {
 
 Machine machine_of(const std::vector<dem_gpu::WallGeometry>& walls, const dem_gpu::Vec3& up);
 
+/// The wall as it is drawn: a plane across a drum's axis becomes a disc as large as the drum.
+dem_gpu::WallGeometry as_drawn(const dem_gpu::WallGeometry& wall, const Machine& machine);
+
 }  // namespace postprocess

@@ -189,16 +189,9 @@ void add_walls(vtkRenderer* renderer, const RunGeometry& geometry, const Snapsho
   const Bounds bounds = scene_bounds(geometry, snapshot);
   for (std::size_t w = 0; w < geometry.walls.size(); ++w) {
     if (!snapshot.wall_present[w]) continue;
-    WallGeometry wall = geometry.walls[w];
+    const WallGeometry wall = as_drawn(geometry.walls[w], machine);
     const Placement placement = wall_placement(snapshot, static_cast<int>(w));
     const Vec3 direction = rotate(placement.rotation, wall.direction);
-    // An end plane of a drum is drawn as large as the drum.
-    if (wall.kind == WallKind::plane && machine.kind == SceneKind::drum &&
-        std::abs(dot(wall.direction, machine.axis)) > 0.99) {
-      wall.point = machine.point + dot(wall.point - machine.point, machine.axis) * machine.axis;
-      wall.kind = WallKind::disc;
-      wall.base_radius = machine.radius;
-    }
     Surface surface;
     switch (wall.kind) {
       case WallKind::cylinder:

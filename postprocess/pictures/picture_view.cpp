@@ -101,6 +101,16 @@ Machine machine_of(const std::vector<WallGeometry>& walls, const Vec3& up) {
   return machine;
 }
 
+WallGeometry as_drawn(const WallGeometry& wall, const Machine& machine) {
+  WallGeometry drawn = wall;
+  if (wall.kind != WallKind::plane || machine.kind != SceneKind::drum) return drawn;
+  if (std::abs(dot(wall.direction, machine.axis)) < 0.99) return drawn;
+  drawn.kind = WallKind::disc;
+  drawn.base_radius = machine.radius;
+  drawn.point = machine.point + dot(wall.point - machine.point, machine.axis) * machine.axis;
+  return drawn;
+}
+
 PictureView picture_view(const dem_gpu::RunGeometry& geometry, const std::vector<dem_gpu::Snapshot>& snapshots,
                          const Vec3& up, const PictureSize& size) {
   for (const dem_gpu::Snapshot& snapshot : snapshots) check_same_run(geometry, snapshot);

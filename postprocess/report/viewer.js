@@ -6,7 +6,7 @@
   const canvas = document.getElementById("viewer");
   const note = document.getElementById("viewer-note");
   const scene = JSON.parse(document.getElementById("viewer-scene").textContent);
-  const gl = canvas.getContext("webgl2", {antialias: true});
+  const gl = canvas.getContext("webgl2", {antialias: true, alpha: false});
   if (!gl) {
     note.textContent = "This browser has no WebGL 2, so the interactive view is off. The pictures above show the same run.";
     canvas.style.display = "none";
@@ -185,7 +185,7 @@
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
     gl.depthMask(false);
-    walls.forEach((wall, w) => { if (!scene.walls[w].solid) draw(wall, [0.62, 0.70, 0.77, 0.22]); });
+    walls.forEach((wall, w) => { if (!scene.walls[w].solid) draw(wall, [0.55, 0.64, 0.72, 0.15]); });
     gl.depthMask(true);
   }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "postprocess/contact_statistics.h"
+#include "postprocess/pictures/machine.h"
 #include "postprocess/report/base64.h"
 #include "postprocess/surfaces/surface.h"
 
@@ -108,9 +109,10 @@ std::string viewer_scene_json(const dem_gpu::RunGeometry& geometry, const std::v
     whole.include(bounds.high);
   }
   scene["walls"] = ordered_json::array();
+  const Machine machine = machine_of(geometry.walls, vertical);
   for (const dem_gpu::WallGeometry& wall : geometry.walls)
-    scene["walls"].push_back(
-        mesh_json(wall_surface(wall, whole, 64), false, wall.kind == dem_gpu::WallKind::volume_object));
+    scene["walls"].push_back(mesh_json(wall_surface(as_drawn(wall, machine), whole, 64), false,
+                                       wall.kind == dem_gpu::WallKind::volume_object));
   std::vector<std::uint16_t> shape_of(geometry.body_shape.begin(), geometry.body_shape.end());
   std::vector<float> scale_of(geometry.body_scale.begin(), geometry.body_scale.end());
   scene["shapeOf"] = base64_of(shape_of);

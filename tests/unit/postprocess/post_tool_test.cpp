@@ -32,7 +32,7 @@ Outcome talus_post(const TemporaryFolder& folder, const std::string& arguments, 
   return {WEXITSTATUS(status), read_bytes(folder / "out"), read_bytes(folder / "err")};
 }
 
-std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
+std::string quoted(const fs::path& path) { return std::string("'").append(path.string()).append("'"); }
 
 TEST(TalusPost, WritesSeriesCurvesAndReport) {
   const TemporaryFolder folder;
