@@ -81,7 +81,8 @@ void write_bodies_vtp(const std::filesystem::path& file, const RunGeometry& geom
         append(surface, shapes[geometry.body_shape[b]], body_placement(geometry, snapshot, static_cast<int>(b)));
     polygons_of[b] = end - begin;
   }
-  const auto mesh = poly_data(surface);
+  vtkNew<vtkPolyData> mesh;
+  set_surface(mesh, surface);
   CellColumn<vtkIntArray> body_id(mesh, "body_id"), shape_id(mesh, "shape_id"), material_id(mesh, "material_id");
   CellColumn<vtkFloatArray> speed(mesh, "speed"), angular_speed(mesh, "angular_speed"), mass(mesh, "mass");
   for (std::size_t b = 0; b < polygons_of.size(); ++b) {
@@ -107,7 +108,8 @@ void write_walls_vtp(const std::filesystem::path& file, const RunGeometry& geome
         append(surface, wall_surface(geometry.walls[w], bounds), wall_placement(snapshot, static_cast<int>(w)));
     polygons_of[w] = end - begin;
   }
-  const auto mesh = poly_data(surface);
+  vtkNew<vtkPolyData> mesh;
+  set_surface(mesh, surface);
   CellColumn<vtkIntArray> wall_id(mesh, "wall_id"), wall_kind(mesh, "wall_kind");
   for (std::size_t w = 0; w < polygons_of.size(); ++w) {
     wall_id.push(static_cast<double>(w), polygons_of[w]);

@@ -11,12 +11,14 @@
 #include <vtkPNGWriter.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
+#include <vtkSmartPointer.h>
 #include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 #include <vtkUnsignedCharArray.h>
@@ -102,7 +104,8 @@ void add_bodies(vtkRenderer* renderer, const RunGeometry& geometry, const Snapsh
     for (int p = begin; p < end; ++p) speed->InsertNextValue(static_cast<float>(norm(snapshot.velocity[b])));
   }
   if (surface.polygon_count() == 0) return;
-  const auto mesh = poly_data(surface);
+  vtkNew<vtkPolyData> mesh;
+  set_surface(mesh, surface);
   mesh->GetCellData()->SetScalars(speed);
   const auto actor = shaded_actor(mesh);
   actor->GetMapper()->ScalarVisibilityOn();
@@ -117,7 +120,9 @@ void add_bodies(vtkRenderer* renderer, const RunGeometry& geometry, const Snapsh
 
 void add_surface(vtkRenderer* renderer, const Surface& surface, const Colour& colour, double opacity) {
   if (surface.polygon_count() == 0) return;
-  const auto actor = shaded_actor(poly_data(surface));
+  vtkNew<vtkPolyData> mesh;
+  set_surface(mesh, surface);
+  const auto actor = shaded_actor(mesh);
   set_colour(actor->GetProperty(), colour, 0.45);
   actor->GetProperty()->SetOpacity(opacity);
   renderer->AddActor(actor);

@@ -26,7 +26,9 @@ std::string optional_percent(const std::optional<double>& share) { return share 
 
 std::string with_interval(const IntervalMean& mean, const std::string& unit) {
   std::string text = short_number(mean.mean);
-  if (mean.batches > 1) text += " ± " + short_number(mean.half_width, 2);
+  // Below rounding of the mean there is nothing to tell.
+  if (mean.batches > 1 && mean.half_width > 1e-9 * std::abs(mean.mean))
+    text += " ± " + short_number(mean.half_width, 2);
   return text + " " + unit;
 }
 
@@ -113,7 +115,10 @@ std::string shape_error_table(const std::vector<RunSummary::ShapeError>& shapes)
 std::string trust_section(const RunFolder& run, const RunFigures& figures) {
   std::vector<TrustLine> lines{energy_line(figures)};
   const auto plain = [&](const std::string& what, const std::optional<double>& value, const std::string& text) {
-    lines.push_back({what, value ? text : kUnknown, "no bound set", "reported", "open"});
+    if (value)
+      lines.push_back({what, text, "no bound set", "reported", "open"});
+    else
+      lines.push_back({what, kUnknown, "no bound set", "cannot be judged", "open"});
   };
   plain("Largest overlap met / equivalent diameter of the smaller body", figures.largest_overlap,
         optional_percent(figures.largest_overlap));

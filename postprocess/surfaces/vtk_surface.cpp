@@ -4,10 +4,11 @@
 #include <vtkCellArray.h>
 #include <vtkNew.h>
 #include <vtkPoints.h>
+#include <vtkPolyData.h>
 
 namespace postprocess {
 
-vtkSmartPointer<vtkPolyData> poly_data(const Surface& surface) {
+void set_surface(vtkPolyData* mesh, const Surface& surface) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToFloat();
   points->SetNumberOfPoints(static_cast<vtkIdType>(surface.points.size()));
@@ -19,10 +20,8 @@ vtkSmartPointer<vtkPolyData> poly_data(const Surface& surface) {
     polygons->InsertNextCell(end - begin);
     for (int c = begin; c < end; ++c) polygons->InsertCellPoint(surface.corners[c]);
   }
-  auto mesh = vtkSmartPointer<vtkPolyData>::New();
   mesh->SetPoints(points);
   mesh->SetPolys(polygons);
-  return mesh;
 }
 
 }  // namespace postprocess

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to postprocess/*.cpp files that use VTK.
-#include <vtkPolyData.h>
-#include <vtkSmartPointer.h>
-
 #include "postprocess/surfaces/surface.h"
+
+class vtkPolyData;
 
 namespace postprocess {
 
-/// Points (32-bit) and polygons, no data.
-vtkSmartPointer<vtkPolyData> poly_data(const Surface& surface);
+/// Gives an empty `mesh` the surface's points (32-bit) and polygons.
+void set_surface(vtkPolyData* mesh, const Surface& surface);
 
 }  // namespace postprocess

@@ -123,7 +123,7 @@ TEST(HopperReport, FindsTheRateThatWentIn) {
   EXPECT_FALSE(report.figures.mill);
   for (const char* name : {"discharge_mass", "discharge_count", "discharge_rate", "energy", "energy_balance"})
     EXPECT_TRUE(plot_names(report).contains(name)) << name;
-  EXPECT_NE(report.html.find("2 ± "), std::string::npos);
+  EXPECT_NE(report.html.find("<b>2 kg/s</b>"), std::string::npos);
 }
 
 TEST(HopperReport, MiddlePictureIsWhereHalfHasLeft) {
