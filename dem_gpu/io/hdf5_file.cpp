@@ -108,12 +108,6 @@ Id dataset_creation(std::size_t rows, std::size_t columns, std::size_t element_s
   return properties;
 }
 
-Id link_creation() {
-  Id properties = property_list(H5P_LINK_CREATE);
-  H5Pset_create_intermediate_group(properties, 1);
-  return properties;
-}
-
 /// Flushes a file or folder to the disk; false with errno set if that fails.
 bool sync_to_disk(const std::filesystem::path& path) {
   const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -140,13 +134,25 @@ struct Hdf5Writer::Handle {
     if (status < 0) fail("cannot write " + place);
   }
 
+  /// Makes the groups of "a/b/name" that are not there. HDF5 would make them itself, but stamps those with the time.
+  void make_groups(const std::string& name) const {
+    const Id creation = property_list(H5P_GROUP_CREATE);
+    H5Pset_obj_track_times(creation, false);
+    for (std::size_t end = name.find('/'); end != std::string::npos; end = name.find('/', end + 1)) {
+      const std::string path = name.substr(0, end);
+      if (H5Lexists(id, path.c_str(), H5P_DEFAULT) > 0) continue;
+      const Id group(H5Gcreate2(id, path.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose);
+      if (!group.is_valid()) fail("cannot create group " + path);
+    }
+  }
+
   void write_dataset(const std::string& name, hid_t memory_type, hid_t file_type, ArrayShape shape,
                      const void* values) const {
     const hsize_t extent[2] = {shape.rows, shape.columns};
     const Id space(H5Screate_simple(2, extent, nullptr), H5Sclose);
     const Id creation = dataset_creation(shape.rows, shape.columns, H5Tget_size(file_type));
-    const Id links = link_creation();
-    const Id dataset(H5Dcreate2(id, name.c_str(), file_type, space, links, creation, H5P_DEFAULT), H5Dclose);
+    make_groups(name);
+    const Id dataset(H5Dcreate2(id, name.c_str(), file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
     if (!dataset.is_valid()) fail("cannot create dataset " + name);
     if (shape.rows * shape.columns > 0)
       check(H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <random>
+#include <thread>
 
 #include "catalog/input_error.h"
 #include "dem_gpu/io/hdf5_file.h"
@@ -117,6 +119,7 @@ TEST(SnapshotFile, HoldsASceneWithoutWallsAndContacts) {
 TEST(SnapshotFile, EqualStatesGiveEqualBytes) {
   const TemporaryFolder folder;
   write_snapshot(folder / "a.h5", sample_snapshot(300, 2, 77));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // HDF5 stamps times in whole seconds
   write_snapshot(folder / "b.h5", sample_snapshot(300, 2, 77));
   write_snapshot(folder / "c.h5", sample_snapshot(300, 2, 77, 2));
   EXPECT_EQ(read_bytes(folder / "a.h5"), read_bytes(folder / "b.h5"));

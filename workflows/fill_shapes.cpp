@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "workflows/fill_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "catalog/input_error.h"
+#include "catalog/shape_catalog.h"
+
+namespace workflows {
+namespace {
+
+std::string catalogue_command(const char* action, const std::filesystem::path& catalogue) {
+  return "talus " + std::string(action) + " " + catalogue.string();
+}
+
+/// Vertex cap of the level to use; refuses one that is not there.
+int vertex_cap_of(const catalog::ShapeSummary& shape, const FillDescription& fill, const CatalogueShapes& asked) {
+  std::set<int> caps, levels;
+  for (const auto& level : shape.levels) {
+    levels.insert(level.parts_asked);
+    if (level.parts_asked == asked.parts && level.vertex_cap <= dem_gpu::kMaxPartVertices)
+      caps.insert(level.vertex_cap);
+  }
+  const auto listed = [](const std::set<int>& numbers) {
+    std::string list;
+    for (const int number : numbers) list += (list.empty() ? "" : ", ") + std::to_string(number);
+    return list.empty() ? std::string("none") : list;
+  };
+  const std::string parts = std::to_string(asked.parts);
+  if (caps.empty())
+    throw catalog::InputError(
+        fill.place + ": shape '" + shape.name + "' has no level of " + parts + " parts (it has: " + listed(levels) +
+        "); make it with: " + catalogue_command("decompose", asked.catalogue) + " --parts " + parts);
+  if (asked.vertex_cap && !caps.contains(*asked.vertex_cap))
+    throw catalog::InputError(
+        fill.place + ": shape '" + shape.name + "' has " + parts + " parts with at most " + listed(caps) +
+        " vertices, not " + std::to_string(*asked.vertex_cap) +
+        "; take one of these, or make it with: " + catalogue_command("decompose", asked.catalogue) + " --parts " +
+        parts + " --vertices " + std::to_string(*asked.vertex_cap));
+  if (asked.vertex_cap) return *asked.vertex_cap;
+  return *std::min_element(caps.begin(), caps.end(),
+                           [](int a, int b) { return std::abs(a - kUsualVertexCap) < std::abs(b - kUsualVertexCap); });
+}
+
+/// 0 if the catalogue has none.
+double descriptor(const catalog::ShapeSummary& shape, const std::string& key) {
+  const auto found = shape.descriptors.find(key);
+  return found == shape.descriptors.end() ? 0 : found->second;
+}
+
+double bounding_radius(const dem_gpu::Shape& shape) {
+  if (const auto* sphere = std::get_if<dem_gpu::SphereShape>(&shape.geometry)) return sphere->radius;
+  double squared = 0;
+  for (const catalog::ConvexPart& part : std::get<dem_gpu::PolyhedralShape>(shape.geometry).parts)
+    for (const Point& p : part.vertices) squared = std::max(squared, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+  return std::sqrt(squared);
+}
+
+std::string with_millimetres(const char* name, const std::vector<double>& lengths) {
+  std::string text = name;
+  for (std::size_t i = 0; i < lengths.size(); ++i) {
+    char number[32];
+    std::snprintf(number, sizeof number, "%s%.6g", i ? "x" : " ", lengths[i] * 1e3);
+    text += number;
+  }
+  return text + " mm";
+}
+
+}  // namespace
+
+ShapeCollector::Collected ShapeCollector::add(dem_gpu::Shape shape, ShapeReport report) {
+  Collected collected{};
+  collected.shape = {static_cast<int>(assembled_.scene.shapes.size()), 0, shape.volume, bounding_radius(shape)};
+  report.volume = shape.volume;
+  if (const auto* body = std::get_if<dem_gpu::PolyhedralShape>(&shape.geometry)) {
+    report.parts = static_cast<int>(body->parts.size());
+    for (const catalog::ConvexPart& part : body->parts) {
+      report.vertices += static_cast<int>(part.vertex_count());
+      report.faces += static_cast<int>(part.face_count());
+    }
+  }
+  assembled_.scene.shapes.push_back(std::move(shape));
+  assembled_.shapes.push_back(std::move(report));
+  return collected;
+}
+
+ShapeCollector::Collected ShapeCollector::ball(const FillDescription& fill, const BallShape& ball) {
+  const double diameter = fill.size ? std::cbrt(mean_cubed_size(*fill.size)) : ball.diameter;
+  const std::string name = with_millimetres("sphere", {diameter});
+  if (const auto known = collected_.find(name); known != collected_.end()) return known->second;
+  Collected collected = add(dem_gpu::sphere_shape(name, diameter / 2), {.name = name});
+  collected.sieve_size = collected.largest_feret = diameter;
+  return collected_[name] = collected;
+}
+
+ShapeCollector::Collected ShapeCollector::box(const BoxShape& box) {
+  const auto [x, y, z] = box.size;
+  const std::string name = with_millimetres("box", {x, y, z});
+  if (const auto known = collected_.find(name); known != collected_.end()) return known->second;
+  Collected collected = add(dem_gpu::polyhedral_shape(name, {dem_gpu::box_part({x, y, z})}), {.name = name});
+  Point edges = box.size;
+  std::sort(edges.begin(), edges.end());
+  collected.sieve_size = edges[1];
+  collected.largest_feret = std::hypot(x, y, z);
+  return collected_[name] = collected;
+}
+
+std::vector<ShapeCollector::Collected> ShapeCollector::selected(const FillDescription& fill,
+                                                                const CatalogueShapes& shapes) {
+  const catalog::ShapeCatalog catalogue(shapes.catalogue, catalog::ShapeCatalog::Access::read_only);
+  const std::string path = shapes.catalogue.string();
+  std::vector<catalog::ShapeId> ids;
+  try {
+    ids = catalogue.select(shapes.query);
+  } catch (const catalog::InputError& error) {
+    throw catalog::InputError(fill.place + ": select: " + error.what());
+  }
+  if (ids.empty())
+    throw catalog::InputError(fill.place + ": select = \"" + shapes.query + "\" finds no shape in " + path +
+                              "; see what there is with: " + catalogue_command("catalog list", path));
+  const auto is_used = [&](const CatalogueUsed& used) { return used.path == shapes.catalogue; };
+  if (std::none_of(assembled_.catalogues.begin(), assembled_.catalogues.end(), is_used))
+    assembled_.catalogues.push_back({shapes.catalogue, catalog::sha256_of_file(shapes.catalogue)});
+
+  std::vector<Collected> all;
+  for (const catalog::ShapeId id : ids) {
+    const catalog::ShapeSummary summary = catalogue.summary(id);
+    const int vertex_cap = vertex_cap_of(summary, fill, shapes);
+    const std::string key =
+        path + "\n" + summary.name + "\n" + std::to_string(shapes.parts) + "\n" + std::to_string(vertex_cap);
+    if (!collected_.contains(key)) {
+      const catalog::LevelOfDetail level = catalogue.level(id, shapes.parts, vertex_cap);
+      Collected collected = add(dem_gpu::polyhedral_shape(summary.name, level.parts),
+                                {.name = summary.name,
+                                 .symmetric_difference = level.error.symmetric_difference,
+                                 .volume_error = level.error.volume_error});
+      collected.sieve_size = descriptor(summary, "axis_intermediate_obb");
+      collected.largest_feret = descriptor(summary, "feret_max");
+      collected_[key] = collected;
+    }
+    all.push_back(collected_[key]);
+  }
+  return all;
+}
+
+std::vector<FillShape> ShapeCollector::shapes_of(const FillDescription& fill) {
+  std::vector<Collected> all;
+  if (const auto* sphere = std::get_if<BallShape>(&fill.shapes))
+    all = {ball(fill, *sphere)};
+  else if (const auto* block = std::get_if<BoxShape>(&fill.shapes))
+    all = {box(*block)};
+  else
+    all = selected(fill, std::get<CatalogueShapes>(fill.shapes));
+
+  std::vector<FillShape> shapes;
+  for (const Collected& one : all) {
+    shapes.push_back(one.shape);
+    const double equivalent = std::cbrt(6 * one.shape.volume / std::numbers::pi);
+    shapes.back().size = fill.definition == SizeDefinition::sieve               ? one.sieve_size
+                         : fill.definition == SizeDefinition::volume_equivalent ? equivalent
+                                                                                : one.largest_feret;
+    if (!(shapes.back().size > 0))
+      throw catalog::InputError(
+          fill.place + ": shape '" + assembled_.scene.shapes[static_cast<std::size_t>(one.shape.index)].name +
+          "' has no descriptor for its " + name_of(fill.definition) + " size in the catalogue; digitize it again");
+  }
+  return shapes;
+}
+
+}  // namespace workflows

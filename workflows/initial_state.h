@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "dem_gpu/scene.h"
+
+namespace workflows {
+
+/// A body's bounding ball at time 0, and the fill it came from.
+struct InitialBall {
+  dem_gpu::Vec3 centre;  // [m]
+  double radius = 0;     // [m]
+  int group = 0;         // balls of one group are known to be apart
+};
+
+/// One line on two balls of different groups that overlap; empty if none do. `group_names` for the line.
+std::string overlapping_balls(const std::vector<InitialBall>& balls, const std::vector<std::string>& group_names);
+
+/// How far the ball reaches into the wall at time 0 [m]; 0 or less if it is clear of it. Beside a surface's finite
+/// extent there is no wall.
+double reach_into(const dem_gpu::Wall& wall, const dem_gpu::Vec3& centre, double radius);
+
+}  // namespace workflows

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "dem_gpu/snapshot.h"
+#include "workflows/scene_assembly.h"
+
+namespace workflows {
+
+/// A run's folder; its files are listed in dem_gpu/snapshot.h. It also keeps the scene file as it was (scene.toml), so
+/// that a run can be resumed with nothing else.
+class RunFolder {
+ public:
+  explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path scene_file() const { return path_ / "scene.toml"; }
+  std::filesystem::path snapshot_file(std::int64_t number) const;
+
+  /// Refuses a folder that holds a run already, or anything else.
+  void refuse_if_used() const;
+  /// Refuses a folder that holds no run.
+  void require_run() const;
+
+  bool is_finished() const;
+  bool has_checkpoint() const;
+  /// run.json or resolved_scene.json; an empty object if it cannot be read.
+  nlohmann::ordered_json read_json(const char* name) const;
+
+  /// Makes the folder with scene.toml, resolved_scene.json and geometry.h5.
+  void start(const SceneDescription& description, const nlohmann::ordered_json& resolved,
+             const dem_gpu::RunGeometry& geometry) const;
+  void write_json(const char* name, const nlohmann::ordered_json& json) const;
+  void write_snapshot(std::int64_t number, const dem_gpu::Snapshot& snapshot) const;
+  /// Adds a line, with the time of day, to run.log.
+  void log(const std::string& line) const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace workflows

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "workflows/run_loop.h"
+
+#include <signal.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <stdexcept>
+
+#include "catalog/input_error.h"
+#include "workflows/run_progress.h"
+#include "workflows/run_reports.h"
+#include "workflows/series_files.h"
+
+namespace workflows {
+namespace {
+
+// Between two looks at signals and the clock.
+constexpr double kChunkSeconds = 0.2;
+
+volatile std::sig_atomic_t stop_signal = 0;
+
+extern "C" void remember_stop(int signal) { stop_signal = signal; }
+
+/// The state of one call of run_to_end.
+class RunLoop {
+ public:
+  RunLoop(dem_gpu::Simulation& simulation, const RunPlan& plan, bool is_resumed)
+      : simulation_(simulation),
+        plan_(plan),
+        schedule_(run_schedule(plan.description, plan.assembled.scene)),
+        series_(plan.folder.path(), plan.assembled.scene, is_resumed ? simulation.time() : -1),
+        progress_(simulation.step()),
+        last_row_step_(simulation.step()) {
+    if (is_resumed) ledger_ = simulation.ledger();
+  }
+
+  ExitStatus run(bool is_resumed) {
+    if (!is_resumed) write_outputs();
+    write_summary(false, "");
+    std::int64_t chunk = 1;
+    while (simulation_.step() < schedule_.end_step) {
+      if (stop_signal != 0) return stop();
+      const std::int64_t steps = std::min(schedule_.steps_to_next(simulation_.step()), chunk);
+      const auto before = std::chrono::steady_clock::now();
+      simulation_.advance(steps);
+      const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+      // Toward chunks of kChunkSeconds; how the steps are cut does not change the result.
+      const double ideal = kChunkSeconds * double(steps) / std::max(seconds, 1e-6);
+      chunk = std::max<std::int64_t>(1, std::min<std::int64_t>(static_cast<std::int64_t>(ideal), 4 * chunk));
+      write_outputs();
+      show_progress();
+    }
+    return finish();
+  }
+
+  void fail(const std::string& message) {
+    progress_.finish();
+    plan_.folder.log("failed: " + message);
+    write_summary(false, message);
+  }
+
+ private:
+  bool is_at_end() const { return simulation_.step() >= schedule_.end_step; }
+
+  /// What is due at this step, the checkpoint last: it stands for everything before it.
+  void write_outputs() {
+    const std::int64_t step = simulation_.step();
+    if (schedule_.series.is_due(step) || is_at_end()) {
+      ledger_ = simulation_.ledger();
+      const double now = progress_.seconds();
+      series_.append(simulation_, ledger_,
+                     now > last_row_seconds_ ? double(step - last_row_step_) / (now - last_row_seconds_) : 0);
+      last_row_step_ = step;
+      last_row_seconds_ = now;
+    }
+    if (schedule_.snapshots.interval > 0 && (schedule_.snapshots.is_due(step) || is_at_end()))
+      plan_.folder.write_snapshot(schedule_.snapshot_number(step), simulation_.snapshot());
+    if ((schedule_.checkpoints.is_due(step) && step > 0) || is_at_end()) {
+      simulation_.write_checkpoint(plan_.folder.path());
+      write_summary(false, "");
+    }
+  }
+
+  void show_progress() {
+    const RunStatus status{simulation_.time(), double(schedule_.end_step) * simulation_.time_step(), simulation_.step(),
+                           schedule_.end_step, plan_.assembled.scene.energy_ledger ? imbalance_share(ledger_) : -1};
+    if (const std::string line = progress_.show(status); !line.empty()) plan_.folder.log(line);
+  }
+
+  void write_summary(bool finished, const std::string& error) {
+    const RunFacts facts{finished, plan_.earlier_wall_seconds + progress_.seconds(), plan_.command, error};
+    plan_.folder.write_json("run.json", run_summary(plan_.assembled, plan_.description, simulation_, ledger_, facts));
+  }
+
+  ExitStatus stop() {
+    simulation_.write_checkpoint(plan_.folder.path());
+    ledger_ = simulation_.ledger();
+    write_summary(false, "");
+    progress_.finish();
+    char line[96];
+    std::snprintf(line, sizeof line, "stopped at %.6g s (step %lld); resumable with ", simulation_.time(),
+                  static_cast<long long>(simulation_.step()));
+    const std::string message = line + ("talus simulate --resume " + plan_.folder.path().string());
+    std::fprintf(stderr, "simulate: %s\n", message.c_str());
+    plan_.folder.log(message);
+    return stop_signal == SIGINT ? kInterrupted : kResumable;
+  }
+
+  ExitStatus finish() {
+    ledger_ = simulation_.ledger();
+    write_summary(true, "");
+    progress_.finish();
+    for (const std::string& warning : run_warnings(plan_.assembled, plan_.description, simulation_, ledger_)) {
+      std::fprintf(stderr, "simulate: warning: %s\n", warning.c_str());
+      plan_.folder.log("warning: " + warning);
+    }
+    plan_.folder.log("finished");
+    return kDone;
+  }
+
+  dem_gpu::Simulation& simulation_;
+  const RunPlan& plan_;
+  RunSchedule schedule_;
+  RunSeries series_;
+  RunProgress progress_;
+  dem_gpu::EnergyLedger ledger_;  // at the last row of the series
+  std::int64_t last_row_step_;
+  double last_row_seconds_ = 0;
+};
+
+}  // namespace
+
+RunSchedule run_schedule(const SceneDescription& description, const dem_gpu::Scene& scene) {
+  const double time_step = dem_gpu::time_step(scene);
+  const dem_gpu::RunControl& run = scene.run;
+  const auto times = [&](const char* key, double interval) {
+    if (interval > 0 && interval < time_step)
+      throw catalog::InputError(description.file.string() + ": run." + key + " is shorter than the time step of " +
+                                std::to_string(time_step * 1e6) + " us; state a longer one");
+    return OutputTimes{interval, time_step};
+  };
+  RunSchedule schedule;
+  schedule.snapshots = times("snapshot_every", run.snapshot_interval);
+  schedule.series = times("series_every", run.series_interval > 0 ? run.series_interval : run.snapshot_interval);
+  schedule.checkpoints = times("checkpoint_every", run.checkpoint_interval);
+  schedule.end_step = std::max<std::int64_t>(1, std::llround(run.end_time / time_step));
+  return schedule;
+}
+
+void catch_stop_signals() {
+  struct sigaction action {};
+  action.sa_handler = remember_stop;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGTERM, SIGUSR1, SIGINT}) sigaction(signal, &action, nullptr);
+}
+
+ExitStatus run_to_end(dem_gpu::Simulation& simulation, const RunPlan& plan, bool is_resumed) {
+  RunLoop loop(simulation, plan, is_resumed);
+  try {
+    return loop.run(is_resumed);
+  } catch (const std::runtime_error& error) {
+    loop.fail(error.what());
+    throw;
+  }
+}
+
+}  // namespace workflows

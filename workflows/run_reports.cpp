@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "workflows/run_reports.h"
+
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "workflows/stage_tool.h"
+#include "workflows/thread_count.h"
+
+namespace workflows {
+namespace {
+
+using dem_gpu::Scene;
+using dem_gpu::Vec3;
+using Json = nlohmann::ordered_json;
+
+// Energy out of balance by more than this share of what was put in is worth a warning.
+constexpr double kLargestImbalance = 0.02;
+
+std::string formatted(const char* format, ...) __attribute__((format(printf, 1, 2)));
+std::string formatted(const char* format, ...) {
+  char text[256];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return text;
+}
+
+Json json_of(const Vec3& v) { return {v.x, v.y, v.z}; }
+Json json_of(const Point& p) { return {p[0], p[1], p[2]}; }
+
+Json json_of(const FillRegion& region) {
+  if (const auto* cylinder = std::get_if<CylinderRegion>(&region))
+    return {{"cylinder",
+             {{"base", json_of(cylinder->base)},
+              {"axis", json_of(cylinder->axis)},
+              {"radius", cylinder->radius},
+              {"length", cylinder->length}}}};
+  const auto& box = std::get<BoxRegion>(region);
+  return {{"box", {{"min", json_of(box.low)}, {"max", json_of(box.high)}}}};
+}
+
+struct WallJson {
+  Json operator()(const dem_gpu::Plane& plane) const {
+    return {{"type", "plane"}, {"point", json_of(plane.point)}, {"normal", json_of(plane.normal)}};
+  }
+  Json operator()(const dem_gpu::Disc& disc) const {
+    return {
+        {"type", "disc"}, {"centre", json_of(disc.centre)}, {"normal", json_of(disc.normal)}, {"radius", disc.radius}};
+  }
+  Json operator()(const dem_gpu::Cylinder& cylinder) const {
+    return {{"type", "cylinder"},
+            {"base", json_of(cylinder.base)},
+            {"axis", json_of(cylinder.axis)},
+            {"length", cylinder.length},
+            {"radius", cylinder.radius}};
+  }
+  Json operator()(const dem_gpu::Cone& cone) const {
+    return {{"type", "cone"},        {"base", json_of(cone.base)},      {"axis", json_of(cone.axis)},
+            {"length", cone.length}, {"base_radius", cone.base_radius}, {"top_radius", cone.top_radius}};
+  }
+  Json operator()(const dem_gpu::VolumeObject& object) const {
+    return {{"type", "polyhedron"}, {"vertices", object.part.vertices}};
+  }
+};
+
+Json json_of(const dem_gpu::Wall& wall, const Scene& scene) {
+  Json json{{"name", wall.name}};
+  json.update(std::visit(WallJson{}, wall.geometry));
+  json["material"] = scene.materials[static_cast<std::size_t>(wall.material)].name;
+  json["class"] = wall.contact_class.empty() ? wall.name : wall.contact_class;
+  const dem_gpu::Motion& motion = wall.motion;
+  if (motion.angular_velocity != Vec3{} || motion.velocity != Vec3{})
+    json["motion"] = {{"angular_velocity", json_of(motion.angular_velocity)},
+                      {"rotation_centre", json_of(motion.rotation_centre)},
+                      {"velocity", json_of(motion.velocity)},
+                      {"start", motion.start_time},
+                      {"ramp", motion.ramp_time}};
+  if (wall.removed_at) json["open_at"] = *wall.removed_at;
+  return json;
+}
+
+Json contact_law(const Scene& scene) {
+  Json json;
+  if (const auto* law = std::get_if<dem_gpu::DepthPotential>(&scene.polyhedral_law))
+    json["polyhedra"] = {{"law", "depth_potential"}, {"stiffness", law->stiffness}, {"depth_cap", law->depth_cap}};
+  else
+    json["polyhedra"] = {{"law", "volume"},
+                         {"stiffness", std::get<dem_gpu::OverlapVolume>(scene.polyhedral_law).stiffness}};
+  if (const auto* law = std::get_if<dem_gpu::LinearSpring>(&scene.sphere_law))
+    json["spheres"] = {{"law", "linear"}, {"stiffness", law->stiffness}};
+  else
+    json["spheres"] = {{"law", "hertz"}};
+  json["friction"] = scene.friction.has_value();
+  if (scene.friction) json["tangential_stiffness_ratio"] = scene.friction->tangential_stiffness_ratio;
+  return json;
+}
+
+Json materials(const Scene& scene) {
+  Json json = Json::array();
+  for (const dem_gpu::Material& material : scene.materials)
+    json.push_back({{"name", material.name},
+                    {"density", material.density},
+                    {"youngs_modulus", material.youngs_modulus},
+                    {"poisson_ratio", material.poisson_ratio}});
+  return json;
+}
+
+Json contacts(const Scene& scene) {
+  Json json = Json::array();
+  for (std::size_t a = 0; a < scene.materials.size(); ++a)
+    for (std::size_t b = a; b < scene.materials.size(); ++b)
+      json.push_back({{"materials", {scene.materials[a].name, scene.materials[b].name}},
+                      {"restitution", scene.contact[a][b].restitution},
+                      {"friction", scene.contact[a][b].friction_coefficient}});
+  return json;
+}
+
+Json shapes(const AssembledScene& assembled) {
+  Json json = Json::array();
+  for (const ShapeReport& shape : assembled.shapes)
+    json.push_back({{"name", shape.name},
+                    {"parts", shape.parts},
+                    {"vertices", shape.vertices},
+                    {"faces", shape.faces},
+                    {"volume", shape.volume},
+                    {"symmetric_difference", shape.symmetric_difference},
+                    {"volume_error", shape.volume_error}});
+  return json;
+}
+
+Json fill_summary(const FillReport& report, const FillDescription& fill, const Scene& scene) {
+  Json json{{"name", fill.name}};
+  if (const auto* shapes = std::get_if<CatalogueShapes>(&fill.shapes)) {
+    json["shapes_from"] = shapes->catalogue.string();
+    json["select"] = shapes->query;
+    json["parts"] = shapes->parts;
+    json["vertices"] = shapes->vertex_cap ? Json(*shapes->vertex_cap) : Json(nullptr);
+  }
+  json["material"] = scene.materials[static_cast<std::size_t>(fill.material)].name;
+  json["first_body"] = report.first_body;
+  json["bodies"] = report.bodies;
+  json["mass"] = report.mass;
+  json["region"] = json_of(fill.region);
+  json["lattice"] = fill.layout.lattice == Lattice::cubic ? "cubic" : "hexagonal";
+  json["clearance"] = fill.layout.clearance;
+  json["jitter"] = fill.layout.jitter;
+  json["seed"] = fill.layout.seed;
+  json["velocity"] = json_of(fill.velocity);
+  return json;
+}
+
+bool has_size_range(const FillDescription& fill) {
+  return fill.size && fill.size->size.front() < fill.size->size.back();
+}
+
+/// D10 ... D90 on one basis [m].
+Json characteristic_sizes(const RealisedSizes& sample, SizeBasis basis) {
+  Json json;
+  for (const int percent : {10, 50, 80, 90}) json[formatted("d%d", percent)] = size_at(sample, percent / 100.0, basis);
+  return json;
+}
+
+/// One fill's distribution: rows [size, share passing by mass, share passing by number].
+Json size_distribution(const FillReport& report, const FillDescription& fill) {
+  const SizeBasis basis = fill.size->basis;
+  Json json{{"fill", fill.name}, {"definition", name_of(fill.definition)}, {"basis", name_of(basis)}};
+  for (const char* rows : {"requested", "realised"}) json[rows] = Json::array();
+  for (const double size : report_sizes(*fill.size)) {
+    json["requested"].push_back(
+        {size, passing(*fill.size, size, SizeBasis::mass), passing(*fill.size, size, SizeBasis::number)});
+    json["realised"].push_back(
+        {size, passing(report.realised, size, SizeBasis::mass), passing(report.realised, size, SizeBasis::number)});
+  }
+  json.update(characteristic_sizes(report.realised, basis));
+  for (const SizeBasis one : {SizeBasis::mass, SizeBasis::number})
+    json["by_" + std::string(name_of(one))] = characteristic_sizes(report.realised, one);
+  return json;
+}
+
+double polyhedral_stiffness(const Scene& scene) {
+  return std::visit([](const auto& law) -> double { return law.stiffness; }, scene.polyhedral_law);
+}
+
+}  // namespace
+
+double imbalance_share(const dem_gpu::EnergyLedger& ledger) {
+  return ledger.throughput > 0 ? std::abs(ledger.imbalance()) / ledger.throughput : 0;
+}
+
+nlohmann::ordered_json resolved_scene(const AssembledScene& assembled, const SceneDescription& description,
+                                      const std::string& scene_folder) {
+  const Scene& scene = assembled.scene;
+  Json json{{"name", scene.name}, {"tool_version", tool_version()}, {"scene_folder", scene_folder}};
+  json["catalogues"] = Json::array();
+  for (const CatalogueUsed& used : assembled.catalogues)
+    json["catalogues"].push_back({{"path", used.path.string()}, {"sha256", used.sha256}});
+  json["gravity"] = json_of(scene.gravity);
+  json["run"] = {{"end_time", scene.run.end_time},
+                 {"time_step", dem_gpu::time_step(scene)},
+                 {"steps_per_contact", scene.run.time_step > 0 ? Json(nullptr) : Json(scene.run.steps_per_contact)},
+                 {"shortest_contact_time", dem_gpu::shortest_contact_time(scene)},
+                 {"snapshot_every", scene.run.snapshot_interval},
+                 {"checkpoint_every", scene.run.checkpoint_interval},
+                 {"series_every", scene.run.series_interval}};
+  json["materials"] = materials(scene);
+  json["contacts"] = contacts(scene);
+  json["contact_law"] = contact_law(scene);
+  if (description.stiffness.largest_overlap)
+    json["contact_law"]["stiffness_from"] = {{"largest_overlap", *description.stiffness.largest_overlap},
+                                             {"at_speed", description.stiffness.at_speed}};
+  json["ledger"] = scene.energy_ledger;
+  json["shapes"] = shapes(assembled);
+  json["fills"] = Json::array();
+  for (std::size_t i = 0; i < assembled.fills.size(); ++i)
+    json["fills"].push_back(fill_summary(assembled.fills[i], description.fills[i], scene));
+  json["walls"] = Json::array();
+  for (const dem_gpu::Wall& wall : scene.walls) json["walls"].push_back(json_of(wall, scene));
+  json["outflow"] = nullptr;
+  if (scene.outflow)
+    json["outflow"] = {{"direction", json_of(scene.outflow->direction)}, {"height", scene.outflow->height}};
+  json["bodies"] = {{"count", scene.bodies.size()},
+                    {"where", "geometry.h5 (shape, material, scale) and snapshots/snapshot_000000.h5 (state)"}};
+  return json;
+}
+
+std::vector<std::string> run_warnings(const AssembledScene& assembled, const SceneDescription& description,
+                                      const dem_gpu::Simulation& simulation, const dem_gpu::EnergyLedger& ledger) {
+  std::vector<std::string> warnings;
+  const dem_gpu::RunQuality quality = simulation.quality();
+  const double asked_steps = assembled.scene.run.steps_per_contact;
+  // The shortest contact met may be shorter than the one foreseen by a little without harm.
+  if (quality.smallest_steps_per_contact > 0 && quality.smallest_steps_per_contact < 0.95 * asked_steps)
+    warnings.push_back(
+        formatted("the stiffest contact met had %.1f steps, not %.1f; state a shorter time_step or more "
+                  "steps_per_contact",
+                  quality.smallest_steps_per_contact, asked_steps));
+  if (assembled.scene.energy_ledger && imbalance_share(ledger) > kLargestImbalance)
+    warnings.push_back(
+        formatted("energy is out of balance by %.2f %% of what was put in (more than %.0f %%); state "
+                  "more steps_per_contact",
+                  100 * imbalance_share(ledger), 100 * kLargestImbalance));
+  if (description.stiffness.largest_overlap && quality.largest_overlap > *description.stiffness.largest_overlap)
+    warnings.push_back(
+        formatted("the largest overlap was %.2f %% of a body's diameter, more than the %.2f %% asked for; "
+                  "state a higher at_speed",
+                  100 * quality.largest_overlap, 100 * *description.stiffness.largest_overlap));
+  return warnings;
+}
+
+nlohmann::ordered_json run_summary(const AssembledScene& assembled, const SceneDescription& description,
+                                   const dem_gpu::Simulation& simulation, const dem_gpu::EnergyLedger& ledger,
+                                   const RunFacts& facts) {
+  Json json{{"name", assembled.scene.name},
+            {"finished", facts.finished},
+            {"simulated_time", simulation.time()},
+            {"steps", simulation.step()},
+            {"time_step", simulation.time_step()},
+            {"wall_seconds", facts.wall_seconds},
+            {"backend", backend_name()},
+            {"precision", sizeof(dem_gpu::Real) == sizeof(double) ? "double" : "single"}};
+  if (!facts.error.empty()) json["error"] = facts.error;
+  json["energy"] = {{"kinetic", ledger.kinetic},
+                    {"gravitational", ledger.gravitational},
+                    {"elastic_normal", ledger.elastic_normal},
+                    {"elastic_tangential", ledger.elastic_tangential},
+                    {"wall_work", ledger.wall_work},
+                    {"removed", ledger.removed},
+                    {"initial", ledger.initial},
+                    {"dissipated", ledger.dissipated()},
+                    {"imbalance", ledger.imbalance()},
+                    {"throughput", ledger.throughput},
+                    {"imbalance_share", imbalance_share(ledger)}};
+  json["dissipation"] = Json::array();
+  for (const auto& loss : ledger.dissipation)
+    json["dissipation"].push_back({{"class", loss.contact_class}, {"normal", loss.normal}, {"shear", loss.shear}});
+  const dem_gpu::RunQuality quality = simulation.quality();
+  json["quality"] = {{"largest_overlap", quality.largest_overlap},
+                     {"smallest_steps_per_contact", quality.smallest_steps_per_contact}};
+  json["size_distribution"] = nullptr;  // of the first fill with a range of sizes
+  json["size_distributions"] = Json::array();
+  for (std::size_t i = 0; i < assembled.fills.size(); ++i) {
+    if (!has_size_range(description.fills[i])) continue;
+    json["size_distributions"].push_back(size_distribution(assembled.fills[i], description.fills[i]));
+    json["size_distribution"] = json["size_distributions"].front();
+  }
+  json["shapes"] = shapes(assembled);
+  json["passes"] = simulation.pass_names();
+  json["command"] = facts.command;
+  json["tool_version"] = tool_version();
+  json["warnings"] = run_warnings(assembled, description, simulation, ledger);
+  return json;
+}
+
+std::string size_table(const AssembledScene& assembled, const SceneDescription& description) {
+  std::string table;
+  for (std::size_t i = 0; i < assembled.fills.size(); ++i) {
+    const FillDescription& fill = description.fills[i];
+    const FillReport& report = assembled.fills[i];
+    if (!has_size_range(fill)) continue;
+    const SizeBasis basis = fill.size->basis;
+    table += formatted("sizes of fill \"%s\" (%s, by %s): %d bodies, %.4g kg; passing requested -> realised:\n",
+                       fill.name.c_str(), name_of(fill.definition), name_of(basis), report.bodies, report.mass);
+    for (const double size : report_sizes(*fill.size))
+      table += formatted("  %8.3f mm  %6.2f %% -> %6.2f %%\n", 1e3 * size, 100 * passing(*fill.size, size, basis),
+                         100 * passing(report.realised, size, basis));
+    for (const SizeBasis one : {SizeBasis::mass, SizeBasis::number})
+      table += formatted("  by %-6s  D10 %.3f  D50 %.3f  D80 %.3f  D90 %.3f mm\n", name_of(one),
+                         1e3 * size_at(report.realised, 0.1, one), 1e3 * size_at(report.realised, 0.5, one),
+                         1e3 * size_at(report.realised, 0.8, one), 1e3 * size_at(report.realised, 0.9, one));
+  }
+  return table;
+}
+
+std::string scene_table(const AssembledScene& assembled) {
+  const Scene& scene = assembled.scene;
+  std::string table = formatted("scene \"%s\": %zu bodies of %zu shapes, %zu walls\n", scene.name.c_str(),
+                                scene.bodies.size(), scene.shapes.size(), scene.walls.size());
+  for (std::size_t i = 0; i < assembled.fills.size(); ++i)
+    table += formatted("  fill \"%s\": %d bodies, %.4g kg\n", assembled.fills[i].name.c_str(),
+                       assembled.fills[i].bodies, assembled.fills[i].mass);
+  if (polyhedral_stiffness(scene) > 0)
+    table += formatted("  stiffness of polyhedra: %.4g N/m3\n", polyhedral_stiffness(scene));
+  if (const auto* spring = std::get_if<dem_gpu::LinearSpring>(&scene.sphere_law); spring && spring->stiffness > 0)
+    table += formatted("  stiffness of spheres: %.4g N/m\n", spring->stiffness);
+  const double time_step = dem_gpu::time_step(scene);
+  return table + formatted("  time step: %.4g us (shortest contact %.4g us), %.0f steps to %.4g s\n", 1e6 * time_step,
+                           1e6 * dem_gpu::shortest_contact_time(scene), scene.run.end_time / time_step,
+                           scene.run.end_time);
+}
+
+}  // namespace workflows

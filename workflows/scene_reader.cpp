@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "workflows/scene_reader.h"
+
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <utility>
+
+#include "catalog/input_error.h"
+#include "catalog/nearest_word.h"
+#include "workflows/scene_sections.h"
+
+namespace workflows {
+namespace {
+
+using dem_gpu::Scene;
+
+constexpr double kStandardSteps = 20;
+// Snapshots of a run that states no interval: enough for a smooth animation.
+constexpr int kUsualSnapshots = 50;
+
+void read_run(TomlTable table, dem_gpu::RunControl& run) {
+  run.end_time = table.quantity("end_time", Dimension::time, kPositive);
+  const bool automatic = !table.has("time_step") || (table.is_text("time_step") && table.text("time_step") == "auto");
+  run.time_step = automatic ? 0 : table.quantity("time_step", Dimension::time, kPositive);
+  if (table.has("preset") && table.has("steps_per_contact"))
+    table.refuse("steps_per_contact", "preset and steps_per_contact both state the time step; keep one");
+  if (!automatic && (table.has("preset") || table.has("steps_per_contact")))
+    table.refuse("time_step", "time_step is given, so preset and steps_per_contact have no meaning; keep one");
+  run.steps_per_contact = table.quantity("steps_per_contact", Dimension::ratio, kPositive, kStandardSteps);
+  if (table.has("preset")) {
+    constexpr double steps_of_preset[] = {10, 20, 40};
+    run.steps_per_contact = steps_of_preset[table.choice("preset", {"draft", "standard", "reference"})];
+  }
+  run.snapshot_interval = table.quantity("snapshot_every", Dimension::time, kPositive, run.end_time / kUsualSnapshots);
+  run.checkpoint_interval = table.quantity("checkpoint_every", Dimension::time, kNotNegative, 0);
+  run.series_interval = table.quantity("series_every", Dimension::time, kPositive, run.snapshot_interval);
+  table.finish();
+}
+
+void read_materials(TomlTable& file, Scene& scene) {
+  for (TomlTable& table : file.named_tables("material")) {
+    dem_gpu::Material material;
+    material.name = table.name();
+    material.density = table.quantity("density", Dimension::density, kPositive);
+    material.youngs_modulus = table.quantity("youngs_modulus", Dimension::pressure, kPositive, material.youngs_modulus);
+    const Bounds poisson{-1, 0.5, true, "more than -1, at most 0.5"};
+    material.poisson_ratio = table.quantity("poisson_ratio", Dimension::ratio, poisson, material.poisson_ratio);
+    table.finish();
+    scene.materials.push_back(material);
+  }
+  if (scene.materials.empty()) file.refuse("no material; add a section such as [material.rock] with its density");
+}
+
+dem_gpu::ContactProperties read_contact(TomlTable& table, const dem_gpu::ContactProperties* defaults) {
+  const Bounds restitution{0.01, 1, false, "from 0.01 to 1"};
+  dem_gpu::ContactProperties contact;
+  contact.restitution = defaults ? table.quantity("restitution", Dimension::ratio, restitution, defaults->restitution)
+                                 : table.quantity("restitution", Dimension::ratio, restitution);
+  contact.friction_coefficient =
+      defaults ? table.quantity("friction", Dimension::ratio, kNotNegative, defaults->friction_coefficient)
+               : table.quantity("friction", Dimension::ratio, kNotNegative);
+  table.finish();
+  return contact;
+}
+
+/// Every material pair takes [contact.default] unless [contact."a-b"] says otherwise.
+void read_contacts(TomlTable& file, Scene& scene) {
+  const std::size_t count = scene.materials.size();
+  std::vector<TomlTable> tables = file.named_tables("contact");
+  const dem_gpu::ContactProperties* defaults = nullptr;
+  dem_gpu::ContactProperties default_contact;
+  for (TomlTable& table : tables)
+    if (table.name() == "default") {
+      default_contact = read_contact(table, nullptr);
+      defaults = &default_contact;
+    }
+  if (!defaults) file.refuse("section [contact.default] with restitution and friction is missing");
+
+  scene.contact.assign(count, std::vector<dem_gpu::ContactProperties>(count, default_contact));
+  for (TomlTable& table : tables) {
+    if (table.name() == "default") continue;
+    std::vector<std::string> pairs{"default"};
+    bool is_known = false;
+    for (std::size_t a = 0; a < count; ++a)
+      for (std::size_t b = 0; b < count; ++b) {
+        pairs.push_back(scene.materials[a].name + "-" + scene.materials[b].name);
+        if (pairs.back() != table.name() || is_known) continue;
+        is_known = true;
+        scene.contact[a][b] = scene.contact[b][a] = read_contact(table, defaults);
+      }
+    if (!is_known)
+      table.refuse("not a pair of materials; nearest known: \"" + *catalog::nearest_word(table.name(), pairs) + "\"");
+  }
+}
+
+void read_contact_law(TomlTable table, SceneDescription& description) {
+  Scene& scene = description.scene;
+  StiffnessChoice& stiffness = description.stiffness;
+  if (!table.has("polyhedra") || table.choice("polyhedra", {"depth_potential", "volume"}) == 0) {
+    dem_gpu::DepthPotential law;
+    law.depth_cap = table.quantity("depth_cap", Dimension::ratio, kShare, law.depth_cap);
+    scene.polyhedral_law = law;
+  } else {
+    scene.polyhedral_law = dem_gpu::OverlapVolume{};
+  }
+  const bool is_hertz = table.has("spheres") && table.choice("spheres", {"linear", "hertz"}) == 1;
+  scene.sphere_law = is_hertz ? dem_gpu::SphereLaw(dem_gpu::Hertz{}) : dem_gpu::SphereLaw(dem_gpu::LinearSpring{});
+
+  stiffness.polyhedra = table.optional_quantity("stiffness", Dimension::stiffness_volume, kPositive);
+  if (!is_hertz)
+    stiffness.spheres = table.optional_quantity("sphere_stiffness", Dimension::stiffness_length, kPositive);
+  const Bounds overlap{0, 0.2, true, "more than 0, at most 20 %"};
+  stiffness.largest_overlap = table.optional_quantity("largest_overlap", Dimension::ratio, overlap);
+  if (stiffness.largest_overlap) {
+    if (stiffness.polyhedra && (stiffness.spheres || is_hertz))
+      table.refuse("largest_overlap", "every stiffness is given, so largest_overlap has no meaning; keep one");
+    stiffness.at_speed = table.quantity("at_speed", Dimension::speed, kPositive);
+  } else if (!stiffness.polyhedra && !stiffness.spheres && !is_hertz) {
+    table.refuse("state how stiff contacts are: largest_overlap = \"3 %\" with at_speed = \"2 m/s\", or stiffness");
+  }
+
+  dem_gpu::Friction friction;
+  friction.tangential_stiffness_ratio =
+      table.quantity("tangential_stiffness_ratio", Dimension::ratio, kPositive, friction.tangential_stiffness_ratio);
+  scene.friction = table.flag("friction", true) ? std::optional(friction) : std::nullopt;
+  table.finish();
+}
+
+void read_outflow(TomlTable& file, Scene& scene) {
+  std::optional<TomlTable> table = file.optional_table("outflow");
+  if (!table) return;
+  dem_gpu::Outflow outflow;
+  if (table->has("direction")) outflow.direction = to_vec3(table->direction("direction"));
+  outflow.height = table->quantity("height", Dimension::length);
+  table->finish();
+  scene.outflow = outflow;
+}
+
+void refuse_equal_wall_names(const TomlTable& file, const Scene& scene) {
+  std::set<std::string> names;
+  for (const dem_gpu::Wall& wall : scene.walls)
+    if (!names.insert(wall.name).second) file.refuse("two walls are named \"" + wall.name + "\"; names must differ");
+}
+
+}  // namespace
+
+int read_material_name(TomlTable& table, std::string_view key, const std::vector<dem_gpu::Material>& materials) {
+  std::vector<std::string> names;
+  for (const dem_gpu::Material& material : materials) names.push_back(material.name);
+  return table.choice(key, names);
+}
+
+SceneDescription read_scene_text(std::string text, const std::filesystem::path& file,
+                                 const std::filesystem::path& base_folder) {
+  toml::table root;
+  try {
+    root = toml::parse(text, file.string());
+  } catch (const toml::parse_error& error) {
+    const auto& begin = error.source().begin;
+    throw catalog::InputError(file.string() + ":" + std::to_string(begin.line) + ":" + std::to_string(begin.column) +
+                              ": not TOML: " + std::string(error.description()));
+  }
+
+  SceneDescription description;
+  description.file = file;
+  description.text = std::move(text);
+  Scene& scene = description.scene;
+  TomlTable table(root, file.string(), "");
+  table.expect_only({"name", "gravity", "run", "material", "contact", "contact_law", "ledger", "motion", "wall",
+                     "lifters", "outflow", "fill"});
+  scene.name = table.text("name", file.stem().string());
+  if (scene.name.empty() || scene.name.find('/') != std::string::npos)
+    table.refuse("name", "name must not be empty or hold '/': the run's folder is named for it");
+  if (table.has("gravity")) scene.gravity = to_vec3(table.vector("gravity", Dimension::acceleration));
+  read_run(table.table("run"), scene.run);
+  read_materials(table, scene);
+  read_contacts(table, scene);
+  read_contact_law(table.table("contact_law"), description);
+  if (std::optional<TomlTable> ledger = table.optional_table("ledger")) {
+    scene.energy_ledger = ledger->flag("enabled", true);
+    ledger->finish();
+  }
+  read_walls(table, read_motions(table), scene);
+  refuse_equal_wall_names(table, scene);
+  read_outflow(table, scene);
+  description.fills = read_fills(table, scene, base_folder);
+  return description;
+}
+
+SceneDescription read_scene(const std::filesystem::path& file, const std::filesystem::path& base_folder) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || std::filesystem::is_directory(file) || !(text << stream.rdbuf()))
+    throw catalog::InputError(file.string() + ": cannot be read as a scene file; expected a TOML file");
+  return read_scene_text(text.str(), file, base_folder.empty() ? file.parent_path() : base_folder);
+}
+
+}  // namespace workflows

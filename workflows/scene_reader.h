@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "dem_gpu/scene.h"
+#include "workflows/fill.h"
+#include "workflows/size_distribution.h"
+
+namespace workflows {
+
+/// A level of detail of every shape that a catalogue query selects.
+struct CatalogueShapes {
+  std::filesystem::path catalogue;  // found from the scene file's folder
+  std::string query;                // see catalog::ShapeCatalog::select
+  int parts = 1;                    // parts asked for: 1, 2, 4, 8, ...
+  std::optional<int> vertex_cap;    // nullopt: the cap nearest to kUsualVertexCap that the catalogue has
+};
+inline constexpr int kUsualVertexCap = 32;
+
+struct BallShape {
+  double diameter = 1;  // [m]
+};
+struct BoxShape {
+  Point size{};  // edges [m]
+};
+
+/// One [[fill]]: which bodies, how many, how large, where.
+struct FillDescription {
+  std::string name;
+  std::string place;  // "scene.toml:12:1: fill "ore"", for messages
+  std::variant<CatalogueShapes, BallShape, BoxShape> shapes;
+  int material = 0;                                             // index into Scene::materials
+  std::variant<std::int64_t, double> amount = std::int64_t{0};  // number of bodies, or mass [kg]
+  std::optional<SizeDistribution> size;                         // nullopt: shapes as they are
+  SizeDefinition definition = SizeDefinition::volume_equivalent;
+  FillRegion region;
+  FillLayout layout;
+  Point velocity{};  // at time 0 [m/s]
+};
+
+/// How the stiffness of contacts follows: given, or from the overlap allowed at an impact speed.
+struct StiffnessChoice {
+  std::optional<double> polyhedra;        // [N/m3]
+  std::optional<double> spheres;          // [N/m]
+  std::optional<double> largest_overlap;  // share of the body's equivalent diameter [-]
+  double at_speed = 0;                    // [m/s]
+};
+
+/// A scene file as written: everything that needs neither catalogue nor engine.
+struct SceneDescription {
+  std::filesystem::path file;
+  std::string text;      // the file's bytes
+  dem_gpu::Scene scene;  // without shapes and bodies; stiffness still to be worked out
+  StiffnessChoice stiffness;
+  std::vector<FillDescription> fills;
+};
+
+/// Reads a scene file. Relative paths in it start from `base_folder`, or the file's folder if that is empty.
+/// Throws catalog::InputError "file:line:column: ..." for anything unknown, missing, of a wrong type or out of range.
+SceneDescription read_scene(const std::filesystem::path& file, const std::filesystem::path& base_folder = {});
+
+/// The same from text; `file` is the name used in messages.
+SceneDescription read_scene_text(std::string text, const std::filesystem::path& file,
+                                 const std::filesystem::path& base_folder);
+
+}  // namespace workflows

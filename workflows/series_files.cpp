@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "workflows/series_files.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+#include "workflows/atomic_file.h"
+
+namespace workflows {
+namespace {
+
+constexpr const char* kTimeSeriesHeader =
+    "time[s],step[-],active_bodies[-],active_mass[kg],removed_bodies[-],removed_mass[kg],contacts[-],kinetic[J],"
+    "gravitational[J],elastic_normal[J],elastic_tangential[J],dissipated_normal[J],dissipated_shear[J],wall_work[J],"
+    "removed_energy[J],imbalance[J],throughput[J],largest_overlap[-],steps_per_second[1/s]";
+constexpr const char* kWallsHeader =
+    "time[s],wall,force_x[N],force_y[N],force_z[N],torque_x[N m],torque_y[N m],torque_z[N m],power[W],work[J]";
+constexpr const char* kLedgerHeader = "time[s],class,dissipation_normal[J],dissipation_shear[J]";
+
+std::string cell(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.12g", value);
+  return text;
+}
+
+std::string row(const std::vector<std::string>& cells) {
+  std::string line;
+  for (const std::string& one : cells) line += (line.empty() ? "" : ",") + one;
+  return line;
+}
+
+/// A name as a CSV cell (RFC 4180).
+std::string name_cell(const std::string& name) {
+  if (name.find_first_of(",\"\n\r") == std::string::npos) return name;
+  std::string cell = "\"";
+  for (const char letter : name) cell += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+  return cell + "\"";
+}
+
+/// Header and whole rows up to a time.
+std::string kept_rows(const std::string& text, const std::string& header, double until) {
+  std::string kept = header + "\n";
+  std::size_t start = text.find('\n');
+  if (start == std::string::npos || text.compare(0, start, header) != 0) return kept;
+  ++start;
+  // Times are printed to 12 digits.
+  const double limit = until + 1e-11 * (1 + until);
+  for (std::size_t end = text.find('\n', start); end != std::string::npos; end = text.find('\n', start)) {
+    if (std::strtod(text.c_str() + start, nullptr) > limit) break;
+    kept.append(text, start, end + 1 - start);
+    start = end + 1;
+  }
+  return kept;
+}
+
+}  // namespace
+
+SeriesFile::SeriesFile(std::filesystem::path file, const std::string& header, double keep_until)
+    : file_(std::move(file)) {
+  const std::string earlier = keep_until >= 0 ? read_whole(file_).value_or("") : "";
+  write_whole(file_, kept_rows(earlier, header, keep_until));
+  stream_.open(file_, std::ios::app);
+}
+
+void SeriesFile::append(const std::string& row) { stream_ << row << '\n'; }
+
+void SeriesFile::flush() {
+  if (!stream_.flush()) throw std::runtime_error(file_.string() + ": cannot be written; is the disk full?");
+}
+
+RunSeries::RunSeries(const std::filesystem::path& run_folder, const dem_gpu::Scene& scene, double keep_until)
+    : has_ledger_(scene.energy_ledger),
+      time_series_(run_folder / "time_series.csv", kTimeSeriesHeader, keep_until),
+      walls_(run_folder / "walls.csv", kWallsHeader, keep_until),
+      ledger_(run_folder / "ledger.csv", kLedgerHeader, keep_until) {
+  for (const dem_gpu::Wall& wall : scene.walls) wall_names_.push_back(wall.name);
+}
+
+void RunSeries::append(dem_gpu::Simulation& simulation, const dem_gpu::EnergyLedger& ledger, double steps_per_second) {
+  const std::string time = cell(simulation.time());
+  const dem_gpu::BulkState bulk = simulation.bulk();
+  double normal = 0, shear = 0;
+  for (const auto& loss : ledger.dissipation) {
+    normal += loss.normal;
+    shear += loss.shear;
+    if (has_ledger_) ledger_.append(row({time, name_cell(loss.contact_class), cell(loss.normal), cell(loss.shear)}));
+  }
+  time_series_.append(row(
+      {time, std::to_string(simulation.step()), std::to_string(bulk.active_bodies), cell(bulk.active_mass),
+       std::to_string(bulk.removed_bodies), cell(bulk.removed_mass), std::to_string(bulk.contacts),
+       cell(ledger.kinetic), cell(ledger.gravitational), cell(ledger.elastic_normal), cell(ledger.elastic_tangential),
+       cell(normal), cell(shear), cell(ledger.wall_work), cell(ledger.removed), cell(ledger.imbalance()),
+       cell(ledger.throughput), cell(simulation.quality().largest_overlap), cell(steps_per_second)}));
+  const std::vector<dem_gpu::WallLoad> loads = simulation.take_wall_loads();
+  for (std::size_t wall = 0; wall < loads.size(); ++wall) {
+    const dem_gpu::WallLoad& load = loads[wall];
+    walls_.append(
+        row({time, name_cell(wall_names_[wall]), cell(load.force.x), cell(load.force.y), cell(load.force.z),
+             cell(load.torque.x), cell(load.torque.y), cell(load.torque.z), cell(load.power), cell(load.work)}));
+  }
+  time_series_.flush();
+  walls_.flush();
+  ledger_.flush();
+}
+
+}  // namespace workflows

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "dem_gpu/simulation.h"
+
+namespace workflows {
+
+/// A CSV file that grows by rows, the first column being time.
+class SeriesFile {
+ public:
+  /// Starts a new file, or, where `keep_until` >= 0, goes on with one: whole rows up to that time [s] stay.
+  SeriesFile(std::filesystem::path file, const std::string& header, double keep_until);
+  void append(const std::string& row);
+  void flush();
+
+ private:
+  std::filesystem::path file_;
+  std::ofstream stream_;
+};
+
+/// time_series.csv, walls.csv and ledger.csv of a run folder.
+class RunSeries {
+ public:
+  RunSeries(const std::filesystem::path& run_folder, const dem_gpu::Scene& scene, double keep_until);
+
+  /// One row of each. `steps_per_second` since the last one.
+  void append(dem_gpu::Simulation& simulation, const dem_gpu::EnergyLedger& ledger, double steps_per_second);
+
+ private:
+  std::vector<std::string> wall_names_;
+  bool has_ledger_;
+  SeriesFile time_series_, walls_, ledger_;
+};
+
+}  // namespace workflows
