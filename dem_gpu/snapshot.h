@@ -88,6 +88,8 @@ void write_geometry(const std::filesystem::path& file, const RunGeometry& geomet
 RunGeometry read_geometry(const std::filesystem::path& file);
 void write_snapshot(const std::filesystem::path& file, const Snapshot& snapshot);
 Snapshot read_snapshot(const std::filesystem::path& file);
+/// The snapshot's time alone [s], without reading its arrays.
+double read_snapshot_time(const std::filesystem::path& file);
 
 /// snapshots/snapshot_000012.h5 of a run folder, ascending; empty if there are none.
 std::vector<std::filesystem::path> snapshot_files(const std::filesystem::path& run_folder);

@@ -82,6 +82,10 @@ Snapshot read_snapshot(const std::filesystem::path& path) {
   return snapshot;
 }
 
+double read_snapshot_time(const std::filesystem::path& path) {
+  return io::Hdf5Reader(path, kKind, kVersion).double_attribute("time");
+}
+
 std::vector<std::filesystem::path> snapshot_files(const std::filesystem::path& run_folder) {
   const std::string prefix = "snapshot_";
   std::vector<std::filesystem::path> files;

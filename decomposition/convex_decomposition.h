@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "catalog/shape_record.h"
+#include "catalog/triangle_mesh.h"
+
+namespace decomposition {
+
+struct DecompositionOptions {
+  int parts = 8;                    // at most; fewer where more would not help or would make slivers
+  int vertex_cap = 32;              // of each part, 8 to 64
+  std::uint64_t seed = 1;           // same mesh, options and seed: same bytes, whatever `threads` is
+  double effort = 1;                // scales the number of cuts tried, 0.1 to 100; time grows in proportion
+  double smallest_thickness = 0.1;  // of a part / thickness of the whole
+  double smallest_volume = 0.01;    // of a part / volume of the whole
+  int threads = 0;                  // 0: as many as the machine has
+};
+
+/// Figures of a level beside its error.
+struct LevelFigures {
+  // Area on the cuts marked inner but bare, or outer but covered, on both sides / covered area of one side [-].
+  double ledge_area = 0;
+  double smallest_thickness = 0;  // smallest extent of a part along one of its face normals [m]
+  double smallest_volume = 0;     // [m3]
+  int vertices = 0, faces = 0;    // in all
+  int outer_faces = 0;
+};
+
+/// Divides the solid into convex parts: a partition by cut planes (binary space partition), each part the hull of free
+/// points in its cell, placed so that the symmetric difference to the mesh is least and the volume is the mesh's.
+/// A part has at most `vertex_cap` vertices. Parts never overlap: every vertex lies exactly on its side of every cut,
+/// and faces on a cut carry its plane bit for bit. A convex mesh within the cap comes back as its own hull, and a solid
+/// of few flat facets as the exact convex pieces that the search finds. The error is measured (measure_error).
+/// Provenance: `options` holds the options and the LevelFigures as JSON,
+/// {"options": {...}, "measured": {...}}; the caller fills in the rest.
+/// Throws catalog::InputError for a mesh that bounds no solid and for options out of range.
+catalog::LevelOfDetail decompose(const catalog::TriangleMesh& mesh, const DecompositionOptions& options = {});
+
+/// Several levels at once, sharing one search: the cuts of a level are the first cuts of the next. `options.parts` is
+/// not used. Each level is the same as decompose() would give for it alone.
+std::vector<catalog::LevelOfDetail> decompose_ladder(const catalog::TriangleMesh& mesh,
+                                                     const std::vector<int>& part_counts,
+                                                     const DecompositionOptions& options = {});
+
+/// Figures of finished parts; ledge_area needs the cuts and stays 0 here, a level's provenance has it.
+LevelFigures figures(const std::vector<catalog::ConvexPart>& parts);
+
+/// The options that change the result, as a JSON object; what Provenance::options holds under "options".
+std::string options_json(const DecompositionOptions& options);
+
+}  // namespace decomposition

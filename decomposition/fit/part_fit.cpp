@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomposition/fit/part_fit.h"
+
+#include <algorithm>
+
+namespace decomposition {
+namespace {
+
+constexpr double kMomentum = 0.6;
+// Behind its cut planes a vertex keeps this share of the diagonal (times 1 to 2, by its number), so that no four
+// vertices are exactly coplanar while the fit runs; assembly puts them on the plane.
+constexpr double kCellMargin = 2e-6;
+constexpr int kProjectionPasses = 25;
+constexpr int kReviveEvery = 12;      // steps between putting back vertices that fell inside the hull
+constexpr double kReviveUntil = 0.9;  // share of the steps
+constexpr double kVolumeGain = 0.4;   // of the integral steering of the volume, per step and relative volume error
+constexpr double kLargestSteering = 0.5;
+constexpr double kHighestRevival = 0.06;  // a vertex is put back at most this share of the diagonal above a face
+
+double margin_of(std::size_t point, double diagonal) {
+  const double spread = 0.6180339887498949 * static_cast<double>(point + 1);
+  return kCellMargin * diagonal * (1 + spread - std::floor(spread));
+}
+
+/// Fit of one part; the members are the state that changes from step to step.
+class Fitter {
+ public:
+  Fitter(const Solid& solid, const std::vector<Plane>& cell, const Vec3& centre, const FitPlan& plan)
+      : solid_(solid), cell_(cell), centre_(centre), plan_(plan), random_(plan.seed) {}
+
+  PartFit run(std::vector<Vec3> points) {
+    points_ = std::move(points);
+    velocity_.assign(points_.size(), {});
+    for (std::size_t v = 0; v < points_.size(); ++v) put(v, points_[v]);
+    if (!hull_.build(points_)) return {};
+    const double decay = std::pow(plan_.last_step / plan_.first_step, 1.0 / std::max(1, plan_.steps - 1));
+    double step = plan_.first_step * solid_.diagonal();
+    for (int s = 0; s < plan_.steps; ++s, step *= decay) {
+      const bool may_revive = plan_.revives && s < kReviveUntil * plan_.steps;
+      if (may_revive && s % kReviveEvery == kReviveEvery - 1) revive_dead_vertices();
+      gather_forces();
+      move(step);
+      if (!hull_.build(points_)) return {};
+      steer_volume(s);
+    }
+    PartFit fit;
+    fit.volume = hull_.volume();
+    for (std::size_t v = 0; v < points_.size(); ++v)
+      if (hull_.is_vertex(static_cast<int>(v))) fit.points.push_back(points_[v]);
+    return fit;
+  }
+
+ private:
+  void put(std::size_t vertex, const Vec3& place) {
+    points_[vertex] = project_into_cell(place, cell_, centre_, margin_of(vertex, solid_.diagonal()));
+  }
+
+  int samples_along(double area) const {
+    return std::clamp(static_cast<int>(std::sqrt(area) / (1.5 * solid_.cell())) + 1, 1, plan_.samples_along);
+  }
+
+  /// Derivative of the symmetric difference with respect to a vertex: over its faces, the integral of
+  /// (barycentric weight) x (1 - 2 occupancy) x normal. Stratified samples, shifted anew on each face and step.
+  void gather_forces() {
+    force_.assign(points_.size(), {});
+    share_.assign(points_.size(), 0.0);
+    for (const auto& face : hull_.faces()) {
+      const auto [ia, ib, ic] = face;
+      const Vec3 &a = at(ia), &b = at(ib), &c = at(ic);
+      const Vec3 area_normal = 0.5 * cross(b - a, c - a);
+      const double area = norm(area_normal);
+      const int n = samples_along(area);
+      const double shift_u = random_.uniform(), shift_v = random_.uniform();
+      double weight[3] = {0, 0, 0};
+      for (int i = 0; i < n; ++i)
+        for (int j = 0; j < n; ++j) {
+          double u = (i + shift_u) / n, v = (j + shift_v) / n;
+          if (u + v > 1) u = 1 - u, v = 1 - v;
+          const double pull = 1 - 2 * solid_.occupancy(a + u * (b - a) + v * (c - a)) + steering_;
+          weight[0] += (1 - u - v) * pull;
+          weight[1] += u * pull;
+          weight[2] += v * pull;
+        }
+      for (int k = 0; k < 3; ++k) {
+        const auto vertex = static_cast<std::size_t>(face[static_cast<std::size_t>(k)]);
+        force_[vertex] -= (weight[k] / (n * n)) * area_normal;
+        share_[vertex] += area / 3;
+      }
+    }
+  }
+
+  void move(double step) {
+    for (std::size_t v = 0; v < points_.size(); ++v) {
+      if (share_[v] <= 0) continue;
+      velocity_[v] = kMomentum * velocity_[v] + ((1 - kMomentum) / share_[v]) * force_[v];
+      put(v, points_[v] + step * velocity_[v]);
+    }
+  }
+
+  void steer_volume(int step) {
+    if (plan_.volume <= 0 || step < 0.2 * plan_.steps) return;
+    steering_ += std::clamp(kVolumeGain * (hull_.volume() / plan_.volume - 1), -0.05, 0.05);
+    steering_ = std::clamp(steering_, -kLargestSteering, kLargestSteering);
+  }
+
+  /// Whether all corners lie on one cut plane, as near as the fit keeps them to it.
+  bool is_on_cut(const std::array<int, 3>& face) const {
+    return std::any_of(cell_.begin(), cell_.end(), [&](const Plane& plane) {
+      return std::all_of(face.begin(), face.end(),
+                         [&](int v) { return plane.signed_distance(at(v)) > -4 * kCellMargin * solid_.diagonal(); });
+    });
+  }
+
+  /// Vertices that fell inside the hull, and those in the midst of a cut face, which shape nothing either.
+  void find_dead_vertices() {
+    std::vector<char> is_useful(points_.size(), 0);
+    for (const auto& face : hull_.faces())
+      if (!is_on_cut(face))
+        for (const int v : face) is_useful[static_cast<std::size_t>(v)] = 1;
+    dead_.clear();
+    for (std::size_t v = 0; v < points_.size(); ++v)
+      if (!is_useful[v]) dead_.push_back(v);
+  }
+
+  /// Puts dead vertices on the faces with most rock outside, half-way up.
+  void revive_dead_vertices() {
+    find_dead_vertices();
+    if (dead_.empty()) return;
+    struct Bump {
+      double volume;
+      Vec3 place;
+    };
+    std::vector<Bump> bumps;
+    const double rise = solid_.cell();
+    for (const auto& face : hull_.faces()) {
+      if (is_on_cut(face)) continue;
+      const auto [ia, ib, ic] = face;
+      const Vec3 area_normal = 0.5 * cross(at(ib) - at(ia), at(ic) - at(ia));
+      const double area = norm(area_normal);
+      const Vec3 middle = (1 / 3.0) * (at(ia) + at(ib) + at(ic));
+      double height = 0;
+      while (height < kHighestRevival * solid_.diagonal() &&
+             solid_.occupancy(middle + ((height + rise) / area) * area_normal) > 0.5)
+        height += rise;
+      height = std::fmax(height, 0.1 * rise);
+      bumps.push_back({area * height, middle + (0.5 * height / area) * area_normal});
+    }
+    const std::size_t count = std::min(dead_.size(), bumps.size());
+    std::partial_sort(bumps.begin(), bumps.begin() + static_cast<std::ptrdiff_t>(count), bumps.end(),
+                      [](const Bump& a, const Bump& b) { return a.volume > b.volume; });
+    for (std::size_t k = 0; k < count; ++k) {
+      put(dead_[k], bumps[k].place);
+      velocity_[dead_[k]] = {};
+    }
+    hull_.build(points_);
+  }
+
+  const Vec3& at(int vertex) const { return points_[static_cast<std::size_t>(vertex)]; }
+
+  const Solid& solid_;
+  const std::vector<Plane>& cell_;
+  const Vec3 centre_;
+  const FitPlan& plan_;
+  Random random_;
+  SmallHull hull_;
+  std::vector<Vec3> points_, velocity_, force_;
+  std::vector<double> share_;  // area that moves with the vertex: a third of its faces
+  std::vector<std::size_t> dead_;
+  double steering_ = 0;  // multiplier of the volume: positive pushes inward
+};
+
+}  // namespace
+
+Vec3 project_into_cell(Vec3 p, const std::vector<Plane>& cell, const Vec3& centre, double margin) {
+  for (int pass = 0; pass < kProjectionPasses; ++pass) {
+    bool is_inside = true;
+    for (const Plane& plane : cell)
+      if (const double excess = plane.signed_distance(p) + margin; excess > 1e-3 * margin) {
+        p -= excess * plane.normal;
+        is_inside = false;
+      }
+    if (is_inside) return p;
+  }
+  double share = 1;  // of the way from the centre: certain to end in the cell
+  for (const Plane& plane : cell) {
+    const double depth = -plane.signed_distance(centre) - margin, reach = dot(plane.normal, p - centre);
+    if (reach > depth) share = std::fmin(share, std::fmax(0.0, depth) / reach);
+  }
+  return centre + share * (p - centre);
+}
+
+std::vector<Vec3> start_points(const Solid& solid, const RegionMoments& region, const std::vector<Plane>& cell,
+                               const FitPlan& plan) {
+  Random random(sub_seed(plan.seed, 7));
+  const Frame frame = random_frame(random);
+  const double march = solid.cell();
+  std::vector<Vec3> points;
+  for (int i = 0; i < plan.vertices; ++i) {
+    const Vec3 direction = frame(spread_direction(i, plan.vertices));
+    const Vec3 reach =
+        direction.x * region.semi_axes[0] + direction.y * region.semi_axes[1] + direction.z * region.semi_axes[2];
+    const double length = norm(reach);
+    if (length == 0) continue;
+    const auto filled = [&](double t) { return solid.occupancy(region.centroid + t * reach) > 0.5; };
+    double t = 1;
+    if (filled(t))
+      while (t < 1.6 && filled(t)) t += march / length;
+    else
+      while (t > 0.5 && !filled(t)) t -= march / length;
+    points.push_back(
+        project_into_cell(region.centroid + t * reach, cell, region.centroid, kCellMargin * solid.diagonal()));
+  }
+  return points;
+}
+
+PartFit fit_part(const Solid& solid, const std::vector<Plane>& cell, const Vec3& centre, std::vector<Vec3> points,
+                 const FitPlan& plan) {
+  return Fitter(solid, cell, centre, plan).run(std::move(points));
+}
+
+}  // namespace decomposition

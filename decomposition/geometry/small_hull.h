@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "decomposition/geometry/vector3.h"
+
+namespace decomposition {
+
+/// Convex hull of a few points (at most kMaxPoints), rebuilt thousands of times in a fit: incremental, every point
+/// tested against every face, no allocation after the first call. It expects points in general position; where rounding
+/// spoils the topology `build` says so.
+class SmallHull {
+ public:
+  static constexpr int kMaxPoints = 128;
+
+  /// False if the points are flat or fewer than four, or more than kMaxPoints.
+  bool build(const std::vector<Vec3>& points);
+
+  /// n_faces x 3, counter-clockwise seen from outside, indices into the points given.
+  const std::vector<std::array<int, 3>>& faces() const { return faces_; }
+  bool is_vertex(int point) const { return is_vertex_[static_cast<std::size_t>(point)]; }
+  int vertex_count() const { return vertex_count_; }
+  double volume() const { return volume_; }
+
+ private:
+  bool start_with_tetrahedron(const std::vector<Vec3>& points, std::array<int, 4>& corners);
+  void add_face(int a, int b, int c, const std::vector<Vec3>& points);
+  void remove_face(int face);
+  void insert(int point, const std::vector<Vec3>& points);
+  bool horizon_is_a_loop();
+  bool finish(const std::vector<Vec3>& points);
+  std::int16_t& edge_face(int a, int b) { return edge_face_[static_cast<std::size_t>(a * kMaxPoints + b)]; }
+
+  std::vector<std::array<int, 3>> faces_;
+  std::vector<Vec3> normals_;                                                                 // not unit, one per face
+  std::vector<double> offsets_;                                                               // one per face
+  std::vector<std::int16_t> edge_face_ = std::vector<std::int16_t>(kMaxPoints * kMaxPoints);  // face left of a -> b
+  std::vector<int> visible_;
+  std::vector<char> is_visible_;
+  std::vector<std::array<int, 2>> horizon_;
+  std::array<int, kMaxPoints> next_{};  // along the horizon
+  std::array<char, kMaxPoints> is_vertex_{};
+  int vertex_count_ = 0;
+  double volume_ = 0;
+  double tolerance_ = 0;
+};
+
+/// Smallest extent of the points over the normals of the hull's faces.
+double hull_thickness(const SmallHull& hull, const std::vector<Vec3>& points);
+
+}  // namespace decomposition

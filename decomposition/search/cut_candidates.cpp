@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomposition/search/cut_candidates.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "decomposition/fit/column_measure.h"
+
+namespace decomposition {
+namespace {
+
+constexpr std::array<double, 5> kQuantiles{0.2, 0.35, 0.5, 0.65, 0.8};
+constexpr std::size_t kMostFacetPlanes = 150;  // tried per piece
+constexpr double kNotAllowed = std::numeric_limits<double>::infinity();
+
+/// Share of the points behind the plane.
+double share_behind(const std::vector<Vec3>& points, const Plane& plane) {
+  const auto behind =
+      std::count_if(points.begin(), points.end(), [&](const Vec3& p) { return plane.signed_distance(p) < 0; });
+  return static_cast<double>(behind) / static_cast<double>(points.size());
+}
+
+struct SideScore {
+  double misfit = kNotAllowed;
+  bool is_exact = false;
+};
+
+/// Misfit of a short fit of one side; not allowed if the side is too small, too thin or does not fit at all.
+SideScore score_side(const CutTrial& trial, const Plane& plane, const TrialPlan& how, std::uint64_t seed) {
+  std::vector<Vec3> side;
+  for (const Vec3& p : trial.points)
+    if (plane.signed_distance(p) < 0) side.push_back(p);
+  const double volume = trial.volume * static_cast<double>(side.size()) / static_cast<double>(trial.points.size());
+  if (side.size() < 20 || volume < trial.plan.smallest_volume) return {};
+  std::vector<Plane> cell = trial.cell.planes;
+  cell.push_back(plane);
+  SideScore score;
+  std::vector<Vec3> points;
+  if (const auto exact = exact_piece(trial.solid, cell, trial.plan.vertex_cap)) {
+    score.is_exact = true;
+    points = exact->points;
+  } else {
+    const RegionMoments region = moments_of_points(side, volume);
+    FitPlan plan;
+    plan.vertices = how.vertices;
+    plan.steps = how.steps;
+    plan.first_step = how.first_step;
+    plan.last_step = how.last_step;
+    plan.samples_along = how.samples_along;
+    plan.seed = seed;
+    points = fit_part(trial.solid, cell, region.centroid, start_points(trial.solid, region, cell, plan), plan).points;
+  }
+  SmallHull hull;
+  if (!hull.build(points) || hull_thickness(hull, points) < trial.plan.smallest_thickness) return {};
+  score.misfit = ColumnMeasure(trial.solid, how.stride)(points, hull.faces()).misfit();
+  return score;
+}
+
+}  // namespace
+
+std::vector<Plane> candidate_planes(const CutTrial& trial, Random& random) {
+  std::vector<Plane> planes;
+  const Frame frame = random_frame(random);
+  std::vector<double> heights(trial.points.size());
+  for (int d = 0; d < trial.plan.directions; ++d) {
+    // Half a sphere of directions: the other half gives the same planes.
+    const Vec3 normal = frame(spread_direction(d, 2 * trial.plan.directions));
+    for (std::size_t p = 0; p < heights.size(); ++p) heights[p] = dot(normal, trial.points[p]);
+    std::sort(heights.begin(), heights.end());
+    for (const double quantile : kQuantiles)
+      planes.push_back({normal, heights[static_cast<std::size_t>(quantile * static_cast<double>(heights.size()))]});
+  }
+  const std::size_t random_planes = planes.size();
+  for (const Plane& facet : trial.solid.facet_planes()) {
+    if (planes.size() - random_planes >= kMostFacetPlanes) break;
+    const double share = share_behind(trial.points, facet);
+    if (share > 0 && share < 1) planes.push_back(facet);
+  }
+  return planes;
+}
+
+Plane nudged_plane(const CutTrial& trial, const Plane& plane, double reach, Random& random) {
+  const double size = std::cbrt(trial.volume);
+  Vec3 middle;
+  for (const Vec3& p : trial.points) middle += p;
+  middle = (1.0 / static_cast<double>(trial.points.size())) * middle;
+  const Vec3 pivot = middle - plane.signed_distance(middle) * plane.normal;
+  Plane result;
+  result.normal = normalized(plane.normal + (2 * reach) * random.unit_vector());
+  result.offset = dot(result.normal, pivot) + reach * size * (2 * random.uniform() - 1);
+  return result;
+}
+
+CutScore score_cut(const CutTrial& trial, const Plane& plane, const TrialPlan& fit, std::uint64_t seed) {
+  const SideScore first = score_side(trial, plane, fit, seed);
+  if (first.misfit == kNotAllowed) return {plane, kNotAllowed, false};
+  const SideScore second = score_side(trial, plane.reversed(), fit, seed);
+  return {plane, first.misfit + second.misfit, first.is_exact && second.is_exact};
+}
+
+}  // namespace decomposition

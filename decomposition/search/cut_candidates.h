@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "decomposition/fit/part_fit.h"
+#include "decomposition/search/cut_tree.h"
+
+namespace decomposition {
+
+/// Everything needed to try cuts of one piece.
+struct CutTrial {
+  const Solid& solid;
+  const SearchPlan& plan;
+  const Cell& cell;
+  const std::vector<Vec3>& points;  // spread over the piece
+  double volume;                    // of the piece [m3]
+};
+
+struct TrialPlan {
+  int vertices, steps, samples_along, stride;
+  double first_step, last_step;  // share of the diagonal
+};
+
+/// A cut with convex stand-ins of its two sides, fitted alike for all cuts that are compared.
+struct CutScore {
+  Plane plane;
+  double misfit = 0;      // sum of both sides, see ColumnOverlap::misfit; infinite for a cut that is not allowed
+  bool is_exact = false;  // both sides are convex as they stand: no better cut exists
+};
+
+/// Random directions times quantiles of the points along them, then the solid's own facet planes at re-entrant edges.
+std::vector<Plane> candidate_planes(const CutTrial& trial, Random& random);
+
+/// The cut moved and turned a little: `reach` is the largest move / size of the piece.
+Plane nudged_plane(const CutTrial& trial, const Plane& plane, double reach, Random& random);
+
+CutScore score_cut(const CutTrial& trial, const Plane& plane, const TrialPlan& fit, std::uint64_t seed);
+
+}  // namespace decomposition

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomposition/search/cut_tree.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "decomposition/fit/column_measure.h"
+#include "decomposition/geometry/parallel_for.h"
+#include "decomposition/search/cut_candidates.h"
+
+namespace decomposition {
+namespace {
+
+constexpr int kPointsAPiece = 2000;
+constexpr TrialPlan kCoarse{24, 14, 2, 4, 0.03, 0.006};
+constexpr TrialPlan kFine{32, 40, 3, 2, 0.02, 0.003};
+constexpr FitPlan kComparison{32, 120, 0.02, 0.0015, 4, 0, 1};
+constexpr double kFirstReach = 0.06;  // of polishing moves, halved every round
+constexpr int kMovesARound = 12;
+constexpr double kSmallestGain = 1e-4;   // of the solid's volume: below, a cut is noise
+constexpr double kDistinctAngle = 0.97;  // cosine: two candidates nearer than this and ...
+constexpr double kDistinctShift = 0.05;  // ... with offsets nearer than this share of the piece's size are one
+
+/// Convex stand-in of the solid in a cell, and its error.
+Piece make_piece(const Solid& solid, Cell cell, int vertex_cap, std::uint64_t seed) {
+  Piece piece;
+  piece.cell = std::move(cell);
+  Random random(seed);
+  const std::vector<Vec3> points = solid.points_inside(piece.cell.planes, kPointsAPiece, random);
+  if (points.size() < 20) return piece;
+  piece.region = moments_of_points(points, solid.volume_inside(piece.cell.planes));
+  if (const auto exact = exact_piece(solid, piece.cell.planes, vertex_cap)) {
+    piece.is_exact = true;
+    piece.fit = {exact->points, exact->volume};
+    piece.region.volume = exact->volume;
+    return piece;
+  }
+  FitPlan plan = kComparison;
+  plan.seed = seed;
+  piece.fit = fit_part(solid, piece.cell.planes, piece.region.centroid,
+                       start_points(solid, piece.region, piece.cell.planes, plan), plan);
+  SmallHull hull;
+  if (piece.fit.is_valid() && hull.build(piece.fit.points))
+    piece.error = piece.region.volume + ColumnMeasure(solid, 1)(piece.fit.points, hull.faces()).misfit();
+  else
+    piece.fit = {};
+  return piece;
+}
+
+/// The first `count` of the sorted scores that are not almost the same cut.
+std::vector<CutScore> distinct(const std::vector<CutScore>& sorted, std::size_t count, double size) {
+  std::vector<CutScore> chosen;
+  for (const CutScore& score : sorted) {
+    if (chosen.size() >= count || !std::isfinite(score.misfit)) break;
+    const bool is_new = std::none_of(chosen.begin(), chosen.end(), [&](const CutScore& other) {
+      const double cosine = dot(other.plane.normal, score.plane.normal);
+      const double shift = other.plane.offset - (cosine > 0 ? 1 : -1) * score.plane.offset;
+      return std::abs(cosine) > kDistinctAngle && std::abs(shift) < kDistinctShift * size;
+    });
+    if (is_new) chosen.push_back(score);
+  }
+  return chosen;
+}
+
+}  // namespace
+
+CutTree::CutTree(const Solid& solid, const SearchPlan& plan) : solid_(solid), plan_(plan) {
+  nodes_.push_back({make_piece(solid, {}, plan.vertex_cap, sub_seed(plan.seed, 0)), 0, -1, false, std::nullopt});
+}
+
+bool CutTree::is_allowed(const Piece& piece) const {
+  SmallHull hull;
+  return piece.fit.is_valid() && piece.region.volume >= plan_.smallest_volume &&
+         (piece.is_exact || hull.build(piece.fit.points)) &&
+         (piece.is_exact || hull_thickness(hull, piece.fit.points) >= plan_.smallest_thickness);
+}
+
+std::optional<CutTree::Cut> CutTree::best_cut(const Piece& piece, std::uint64_t seed) const {
+  if (piece.is_exact || piece.error < kSmallestGain * solid_.volume()) return std::nullopt;
+  Random random(seed);
+  const std::vector<Vec3> points = solid_.points_inside(piece.cell.planes, kPointsAPiece, random);
+  const CutTrial trial{solid_, plan_, piece.cell, points, piece.region.volume};
+  const auto score_all = [&](const std::vector<Plane>& planes, const TrialPlan& fit) {
+    std::vector<CutScore> scores(planes.size());
+    // The same seed for all: candidates are compared under common random numbers.
+    parallel_for(static_cast<int>(planes.size()), plan_.threads, [&](int i) {
+      const auto k = static_cast<std::size_t>(i);
+      scores[k] = score_cut(trial, planes[k], fit, seed);
+    });
+    std::stable_sort(scores.begin(), scores.end(),
+                     [](const CutScore& a, const CutScore& b) { return a.misfit < b.misfit; });
+    return scores;
+  };
+  const auto planes_of = [](const std::vector<CutScore>& scores) {
+    std::vector<Plane> planes;
+    for (const CutScore& score : scores) planes.push_back(score.plane);
+    return planes;
+  };
+  const auto refits = static_cast<std::size_t>(plan_.refits);
+  std::vector<CutScore> best = score_all(
+      planes_of(distinct(score_all(candidate_planes(trial, random), kCoarse), refits, std::cbrt(trial.volume))), kFine);
+  if (best.empty() || !std::isfinite(best.front().misfit)) return std::nullopt;
+  double reach = kFirstReach;
+  for (int round = 0; round < plan_.polishing_rounds && !best.front().is_exact; ++round, reach /= 2) {
+    std::vector<Plane> planes{best.front().plane};
+    for (int move = 0; move < kMovesARound; ++move)
+      planes.push_back(nudged_plane(trial, best[move % 3 == 2 && best.size() > 1 ? 1 : 0].plane, reach, random));
+    best = score_all(planes, kFine);
+  }
+  Cut cut;
+  cut.plane = best.front().plane;
+  const int number = static_cast<int>(cuts_.size());
+  parallel_for(2, plan_.threads, [&](int side) {
+    const Plane plane = side == 0 ? cut.plane : cut.plane.reversed();
+    cut.halves[static_cast<std::size_t>(side)] =
+        make_piece(solid_, piece.cell.half(number, plane), plan_.vertex_cap, sub_seed(seed, 1 + side));
+  });
+  if (!is_allowed(cut.halves[0]) || !is_allowed(cut.halves[1])) return std::nullopt;
+  cut.gain = piece.error - cut.halves[0].error - cut.halves[1].error;
+  return cut;
+}
+
+void CutTree::grow(int count) {
+  while (static_cast<int>(cuts_.size()) + 1 < count) {
+    Node* chosen = nullptr;
+    for (std::size_t n = 0; n < nodes_.size(); ++n) {
+      Node& node = nodes_[n];
+      if (node.split >= 0) continue;
+      if (!node.was_searched) {
+        node.best = best_cut(node.piece, sub_seed(plan_.seed, 1 + n));
+        node.was_searched = true;
+      }
+      if (node.best && (!chosen || node.best->gain > chosen->best->gain)) chosen = &node;
+    }
+    if (!chosen || chosen->best->gain < kSmallestGain * solid_.volume()) return;
+    const int number = static_cast<int>(cuts_.size());
+    Cut cut = std::move(*chosen->best);
+    chosen->best.reset();
+    chosen->split = number;
+    cuts_.push_back(cut.plane);
+    for (Piece& half : cut.halves) {
+      half.cell.cuts.back() = number;  // cuts may have been made since this one was found
+      nodes_.push_back({std::move(half), number + 1, -1, false, std::nullopt});
+    }
+  }
+}
+
+std::vector<int> CutTree::pieces(int count) const {
+  const int cuts = std::min(count - 1, static_cast<int>(cuts_.size()));
+  std::vector<int> result;
+  for (std::size_t n = 0; n < nodes_.size(); ++n)
+    if (nodes_[n].born <= cuts && (nodes_[n].split < 0 || nodes_[n].split >= cuts))
+      result.push_back(static_cast<int>(n));
+  return result;
+}
+
+}  // namespace decomposition

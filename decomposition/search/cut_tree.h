@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "decomposition/fit/part_fit.h"
+#include "decomposition/solid/exact_piece.h"
+#include "decomposition/solid/solid.h"
+
+namespace decomposition {
+
+/// How hard to look for cuts.
+struct SearchPlan {
+  int directions = 40;            // random directions of cut planes a piece
+  int refits = 8;                 // best candidates that are fitted again, longer
+  int polishing_rounds = 3;       // rounds of small moves of the best cut
+  int vertex_cap = 32;            // an exact piece may have this many vertices
+  double smallest_volume = 0;     // of a piece [m3]
+  double smallest_thickness = 0;  // of a piece [m]
+  std::uint64_t seed = 1;
+  int threads = 1;
+};
+
+/// Intersection of half-spaces that bounds a piece: one plane per cut on the way down the tree.
+struct Cell {
+  std::vector<Plane> planes;  // outward
+  std::vector<int> cuts;      // number of the cut each plane belongs to
+
+  Cell half(int cut, const Plane& plane) const {
+    Cell result = *this;
+    result.planes.push_back(plane);
+    result.cuts.push_back(cut);
+    return result;
+  }
+};
+
+/// The solid in one cell with a convex stand-in.
+struct Piece {
+  Cell cell;
+  RegionMoments region;
+  PartFit fit;            // of middling length, for comparing cuts
+  double error = 0;       // V(fit xor piece) [m3]
+  bool is_exact = false;  // the piece is convex and `fit` is its own hull
+};
+
+/// Binary space partition of a solid, grown by the cut that lowers the symmetric difference most. The pieces after
+/// k cuts are the levels of detail: each is a refinement of the one before.
+class CutTree {
+ public:
+  CutTree(const Solid& solid, const SearchPlan& plan);
+
+  /// Cuts until there are `count` pieces or no cut helps.
+  void grow(int count);
+  /// Numbers of the pieces after the first `count` - 1 cuts (fewer if the tree has fewer).
+  std::vector<int> pieces(int count) const;
+  const Piece& piece(int number) const { return nodes_[static_cast<std::size_t>(number)].piece; }
+  const SearchPlan& plan() const { return plan_; }
+  const std::vector<Plane>& cuts() const { return cuts_; }
+
+ private:
+  struct Cut {
+    Plane plane;
+    std::array<Piece, 2> halves;
+    double gain = 0;
+  };
+  struct Node {
+    Piece piece;
+    int born = 0;    // number of cuts made when this piece came to be
+    int split = -1;  // number of the cut that ended it, -1: still a leaf
+    bool was_searched = false;
+    std::optional<Cut> best;
+  };
+
+  std::optional<Cut> best_cut(const Piece& piece, std::uint64_t seed) const;
+  bool is_allowed(const Piece& piece) const;
+
+  const Solid& solid_;
+  SearchPlan plan_;
+  std::vector<Node> nodes_;
+  std::vector<Plane> cuts_;  // plane seen from its first half
+};
+
+}  // namespace decomposition

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "decomposition/solid/solid.h"
+
+namespace decomposition {
+
+/// A piece of the solid that is convex as it stands.
+struct ExactPiece {
+  std::vector<Vec3> points;  // corners of its hull
+  double volume = 0;         // [m3]
+  double thickness = 0;      // smallest extent along a face normal [m]
+};
+
+/// The part of the solid in `cell` if it is convex and its hull has at most `vertex_cap` corners; decided by comparing
+/// exact volumes, to rounding. Only for solids with few facets (see Solid::facet_planes and Solid::is_faceted).
+std::optional<ExactPiece> exact_piece(const Solid& solid, const std::vector<Plane>& cell, int vertex_cap);
+
+}  // namespace decomposition

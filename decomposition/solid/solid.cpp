@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomposition/solid/solid.h"
+
+#include <algorithm>
+
+#include "catalog/mass_properties.h"
+#include "decomposition/geometry/coplanar_groups.h"
+
+namespace decomposition {
+namespace {
+
+constexpr double kMostCellsAlong = 600;  // bounds the memory for needles and plates
+constexpr int kMostFacets = 400;         // of a solid that counts as faceted
+constexpr double kCoplanar = 1e-10;      // share of the diagonal: triangles this flat are one facet
+constexpr double kReentrant = 1e-6;  // share of the diagonal: a neighbour this far above a face makes a re-entrant edge
+constexpr int kPadding = 3;          // empty cells around the solid, so that look-ups near it need no bounds
+
+/// Clips the line (x, y, z in range) by the half-spaces of a cell.
+ZInterval clip_to_cell(const std::vector<Plane>& cell, double x, double y, ZInterval range) {
+  for (const Plane& plane : cell) {
+    const double rest = plane.offset - plane.normal.x * x - plane.normal.y * y;
+    if (plane.normal.z > 0)
+      range.high = std::fmin(range.high, rest / plane.normal.z);
+    else if (plane.normal.z < 0)
+      range.low = std::fmax(range.low, rest / plane.normal.z);
+    else if (rest < 0)
+      range.high = range.low;
+  }
+  return range;
+}
+
+}  // namespace
+
+Solid::Solid(const catalog::TriangleMesh& mesh, double cell_count) : faces_(mesh.faces) {
+  vertices_.reserve(mesh.vertices.size());
+  for (const catalog::Point& p : mesh.vertices) vertices_.push_back(to_vec3(p));
+  volume_ = catalog::volume_moments(mesh).volume;
+  const Box box = bounding_box(vertices_);
+  diagonal_ = box.diagonal();
+  const Vec3 size = box.high - box.low;
+  cell_ = std::fmax(std::cbrt(size.x * size.y * size.z / cell_count), diagonal_ / kMostCellsAlong);
+  const auto cells = [&](double length) { return static_cast<int>(std::ceil(length / cell_)) + 2 * kPadding; };
+  nx_ = cells(size.x);
+  ny_ = cells(size.y);
+  nz_ = cells(size.z);
+  const Vec3 middle = 0.5 * (box.low + box.high);
+  origin_ = middle - (0.5 * cell_) * Vec3{double(nx_), double(ny_), double(nz_)};
+  rays_ = {origin_.x, origin_.y, cell_ / 2, 2 * nx_, 2 * ny_, {}, {}};
+  columns_ = intersect(rays_, vertices_, faces_);
+  fill_field();
+  find_facets();
+}
+
+void Solid::find_facets() {
+  const CoplanarGroups groups = coplanar_groups(vertices_, faces_, kCoplanar * diagonal_);
+  is_faceted_ = groups.count() <= kMostFacets;
+  if (!is_faceted_) return;
+  const std::vector<std::array<int, 3>> neighbours = face_neighbours(faces_);
+  std::vector<char> is_wanted(groups.planes.size(), 0);
+  for (std::size_t f = 0; f < faces_.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (neighbours[f][k] < 0) continue;
+      const auto next = static_cast<std::size_t>(neighbours[f][k]);
+      const auto group = static_cast<std::size_t>(groups.group_of[f]);
+      // Re-entrant: the neighbour rises above this face's plane.
+      const bool rises = std::any_of(faces_[next].begin(), faces_[next].end(), [&](int v) {
+        return groups.planes[group].signed_distance(vertices_[static_cast<std::size_t>(v)]) > kReentrant * diagonal_;
+      });
+      if (!rises) continue;
+      is_wanted[group] = 1;
+      reentrant_edges_.push_back({vertices_[static_cast<std::size_t>(faces_[f][k])],
+                                  vertices_[static_cast<std::size_t>(faces_[f][(k + 1) % 3])]});
+    }
+  std::vector<std::size_t> order;
+  for (std::size_t g = 0; g < is_wanted.size(); ++g)
+    if (is_wanted[g]) order.push_back(g);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return groups.areas[a] > groups.areas[b]; });
+  for (const std::size_t g : order) facet_planes_.push_back(groups.planes[g]);
+}
+
+void Solid::fill_field() {
+  std::vector<float> filled(static_cast<std::size_t>(nx_) * ny_ * nz_, 0.0f);
+  const auto nz = static_cast<std::size_t>(nz_);
+  for (int j = 0; j < rays_.ny; ++j)
+    for (int i = 0; i < rays_.nx; ++i) {
+      float* column = &filled[(static_cast<std::size_t>(j / 2) * nx_ + i / 2) * nz];
+      const std::size_t ray = rays_.index(i, j);
+      for (std::size_t k = columns_.first[ray]; k < columns_.first[ray + 1]; ++k) {
+        const double low = (columns_.intervals[k].low - origin_.z) / cell_;
+        const double high = (columns_.intervals[k].high - origin_.z) / cell_;
+        for (int z = static_cast<int>(low); z <= static_cast<int>(high); ++z)
+          column[z] += static_cast<float>(0.25 * std::max(0.0, std::min(high, z + 1.0) - std::max(low, double(z))));
+      }
+    }
+  field_.resize(filled.size());
+  for (std::size_t c = 0; c < filled.size(); ++c)
+    field_[c] = static_cast<std::uint8_t>(std::min(255.0f, 255.0f * filled[c] + 0.5f));
+}
+
+double Solid::occupancy(const Vec3& p) const {
+  const double u = (p.x - origin_.x) / cell_ - 0.5, v = (p.y - origin_.y) / cell_ - 0.5,
+               w = (p.z - origin_.z) / cell_ - 0.5;
+  if (!(u >= 0 && v >= 0 && w >= 0 && u < nx_ - 1 && v < ny_ - 1 && w < nz_ - 1)) return 0;
+  const int i = static_cast<int>(u), j = static_cast<int>(v), k = static_cast<int>(w);
+  const double fx = u - i, fy = v - j, fz = w - k;
+  const std::uint8_t* c00 = &field_[(static_cast<std::size_t>(j) * nx_ + i) * nz_ + k];
+  const std::uint8_t* c10 = c00 + nz_;
+  const std::uint8_t* c01 = c00 + static_cast<std::size_t>(nx_) * nz_;
+  const std::uint8_t* c11 = c01 + nz_;
+  const auto along_z = [&](const std::uint8_t* c) { return c[0] + fz * (c[1] - c[0]); };
+  const double low = along_z(c00) + fx * (along_z(c10) - along_z(c00));
+  const double high = along_z(c01) + fx * (along_z(c11) - along_z(c01));
+  return (low + fy * (high - low)) * (1 / 255.0);
+}
+
+double Solid::volume_inside(const std::vector<Plane>& cell) const {
+  double length = 0;
+  for (int j = 0; j < rays_.ny; ++j)
+    for (int i = 0; i < rays_.nx; ++i) {
+      const std::size_t ray = rays_.index(i, j);
+      for (std::size_t k = columns_.first[ray]; k < columns_.first[ray + 1]; ++k) {
+        const ZInterval part = clip_to_cell(cell, rays_.x(i, j), rays_.y(i, j), columns_.intervals[k]);
+        length += std::fmax(0.0, part.high - part.low);
+      }
+    }
+  return length * rays_.cell * rays_.cell;
+}
+
+std::vector<Vec3> Solid::points_inside(const std::vector<Plane>& cell, int count, Random& random) const {
+  struct Stretch {
+    double x, y, low, high;
+  };
+  std::vector<Stretch> stretches;
+  double length = 0;
+  for (int j = 0; j < rays_.ny; ++j)
+    for (int i = 0; i < rays_.nx; ++i) {
+      const std::size_t ray = rays_.index(i, j);
+      for (std::size_t k = columns_.first[ray]; k < columns_.first[ray + 1]; ++k) {
+        const double x = rays_.x(i, j), y = rays_.y(i, j);
+        const ZInterval part = clip_to_cell(cell, x, y, columns_.intervals[k]);
+        if (part.high <= part.low) continue;
+        stretches.push_back({x, y, part.low, part.high});
+        length += part.high - part.low;
+      }
+    }
+  // Equal steps of cumulative length with a random start: stratified, in proportion to the volume.
+  std::vector<Vec3> points;
+  const double step = length / count;
+  double next = step * random.uniform(), passed = 0;
+  for (const Stretch& s : stretches) {
+    for (; next < passed + s.high - s.low; next += step) points.push_back({s.x, s.y, s.low + next - passed});
+    passed += s.high - s.low;
+  }
+  return points;
+}
+
+RegionMoments moments_of_points(const std::vector<Vec3>& points, double volume) {
+  RegionMoments moments;
+  moments.volume = volume;
+  for (const Vec3& p : points) moments.centroid += p;
+  moments.centroid = (1.0 / static_cast<double>(points.size())) * moments.centroid;
+  catalog::Matrix3 covariance{};
+  for (const Vec3& p : points) {
+    const catalog::Point d = to_point(p - moments.centroid);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) covariance[i][j] += d[i] * d[j] / static_cast<double>(points.size());
+  }
+  catalog::Point variances;
+  catalog::Matrix3 axes;
+  catalog::symmetric_eigen(covariance, variances, axes);
+  for (int a = 0; a < 3; ++a)  // a uniform ellipsoid of semi-axis s has the variance s^2 / 5 along it
+    moments.semi_axes[a] = std::sqrt(5 * std::fmax(variances[a], 0.0)) * to_vec3(axes[a]);
+  return moments;
+}
+
+}  // namespace decomposition

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "catalog/triangle_mesh.h"
+#include "decomposition/geometry/random.h"
+#include "decomposition/solid/ray_grid.h"
+
+namespace decomposition {
+
+/// Volume and second moments of a region, for starting a fit.
+struct RegionMoments {
+  double volume = 0;
+  Vec3 centroid;
+  Vec3 semi_axes[3];  // of the ellipsoid of uniform density with the same second moments
+};
+
+/// What the search asks of the mesh: an occupancy field for the gradients and z-columns for exact lengths.
+/// Cells are cubes whose number is fixed, so that a slab gets as many of them across as its volume allows.
+class Solid {
+ public:
+  /// `mesh` has passed check_closed_solid. `cell_count`: of the occupancy field, about.
+  Solid(const catalog::TriangleMesh& mesh, double cell_count);
+
+  /// Share of the neighbourhood of p that is filled, 0 to 1, trilinear between cell centres.
+  double occupancy(const Vec3& p) const;
+
+  const std::vector<Vec3>& vertices() const { return vertices_; }
+  const std::vector<catalog::Triangle>& faces() const { return faces_; }
+  double volume() const { return volume_; }      // exact, by signed tetrahedra
+  double diagonal() const { return diagonal_; }  // of the bounding box
+  double cell() const { return cell_; }          // edge of a cell of the field
+  const RayGrid& rays() const { return rays_; }  // 2 x 2 rays a cell
+  const RayIntervals& columns() const { return columns_; }
+
+  /// Few flat facets, as a drawn solid has and a scan has not: worth looking for exactly convex pieces.
+  bool is_faceted() const { return is_faceted_; }
+  /// Planes of the facets at re-entrant edges of a faceted solid, largest facets first; none for others.
+  const std::vector<Plane>& facet_planes() const { return facet_planes_; }
+  /// Ends of the re-entrant edges of a faceted solid; none for others.
+  const std::vector<std::array<Vec3, 2>>& reentrant_edges() const { return reentrant_edges_; }
+
+  /// Volume of the part of the solid in the cell, integrated over the columns.
+  double volume_inside(const std::vector<Plane>& cell) const;
+  /// `count` points spread over the part of the solid in the cell, fewer if the cell is nearly empty.
+  std::vector<Vec3> points_inside(const std::vector<Plane>& cell, int count, Random& random) const;
+
+ private:
+  void fill_field();
+  void find_facets();
+
+  std::vector<Vec3> vertices_;
+  std::vector<catalog::Triangle> faces_;
+  double volume_ = 0, diagonal_ = 0, cell_ = 0;
+  Vec3 origin_;  // low corner of the field
+  int nx_ = 0, ny_ = 0, nz_ = 0;
+  std::vector<std::uint8_t> field_;  // nz x ny x nx, 255 is full
+  RayGrid rays_;
+  RayIntervals columns_;
+  bool is_faceted_ = false;
+  std::vector<Plane> facet_planes_;
+  std::vector<std::array<Vec3, 2>> reentrant_edges_;
+};
+
+/// Moments of a set of points that stands for a region of that volume.
+RegionMoments moments_of_points(const std::vector<Vec3>& points, double volume);
+
+}  // namespace decomposition

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shape_pipeline/mesh_repair.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "shape_pipeline/mesh_topology.h"
+#include "shape_pipeline/meshes/hole_filling.h"
+#include "shape_pipeline/meshes/self_intersections.h"
+#include "shape_pipeline/meshes/soup_cleaning.h"
+#include "shape_pipeline/meshes/soup_orientation.h"
+#include "shape_pipeline/point_cloud.h"
+#include "shape_pipeline/solid_checks.h"
+#include "shape_pipeline/surface_reconstruction.h"
+#include "shape_pipeline/surfaces/alpha_wrap.h"
+#include "shape_pipeline/surfaces/cloud_projection.h"
+#include "shape_pipeline/surfaces/vector3.h"
+#include "shape_pipeline/surfaces/winding_volume.h"
+
+namespace shape_pipeline {
+namespace {
+
+constexpr double kWeldDistance = 1e-6;       // of the diagonal: single-precision files differ by less
+constexpr int kElementLimit = 4000;          // surface elements of the winding number: 1 % at half a second
+constexpr double kLeastHullRatio = 0.2;      // a closed mesh may be a thin or hollow-cheeked particle
+constexpr double kLargestRecut = 0.005;      // relative volume change that removing self-intersections may cause
+constexpr double kLargestFilledShare = 0.2;  // of the area: more than this is invention, not repair
+constexpr double kLeastKeptShare = 0.9;      // of the area that the largest surface must have to stand for the scan
+constexpr double kAlphaParts[] = {90, 65, 45, 30};  // alpha = diagonal / parts, fine to coarse
+constexpr double kOffsetPart = 1.0 / 30;            // offset / alpha
+
+/// The steps so far, with the mesh in work.
+struct Repair {
+  catalog::TriangleMesh mesh;
+  std::vector<catalog::Check> checks;
+
+  void count(const std::string& name, std::size_t number, const std::string& detail) {
+    if (number > 0) checks.push_back({"repair_" + name, true, static_cast<double>(number), detail});
+  }
+};
+
+void clean(Repair& repair) {
+  repair.count("welded_vertices", weld_vertices(repair.mesh, 0), "vertices joined to an equal one");
+  std::size_t degenerate = remove_degenerate_faces(repair.mesh), doubled = remove_duplicate_faces(repair.mesh);
+  if (!mesh_topology(repair.mesh).is_closed()) {
+    repair.count("welded_near_vertices",
+                 weld_vertices(repair.mesh, kWeldDistance * bounding_diagonal(repair.mesh.vertices)),
+                 "vertices joined to one within a millionth of the diagonal");
+    degenerate += remove_degenerate_faces(repair.mesh);
+    doubled += remove_duplicate_faces(repair.mesh);
+  }
+  repair.count("degenerate_faces", degenerate, "faces without area removed");
+  repair.count("duplicate_faces", doubled, "faces that stood twice removed");
+}
+
+void orient(Repair& repair) {
+  const MeshTopology before = mesh_topology(repair.mesh);
+  repair.count("non_manifold_edges", before.non_manifold_edges, "edges with more than two faces split");
+  repair.count("misoriented_edges", before.misoriented_edges, "edges between faces turned against one another");
+  const std::size_t vertices = repair.mesh.vertices.size();
+  repair.mesh = oriented_manifold(repair.mesh);
+  if (before.is_closed() && repair.mesh.vertices.size() > vertices)
+    repair.count("non_manifold_vertices", repair.mesh.vertices.size() - vertices, "vertices split where fans touch");
+}
+
+void turn_outwards(catalog::TriangleMesh& mesh) {
+  if (signed_volume(mesh) < 0)
+    for (catalog::Triangle& face : mesh.faces) std::swap(face[1], face[2]);
+}
+
+void keep_largest_surface(Repair& repair) {
+  LargestSurface largest = largest_surface(repair.mesh);
+  if (largest.dropped == 0) return;
+  repair.mesh = std::move(largest.mesh);
+  repair.count("dropped_surfaces", largest.dropped, "separate pieces dropped, the largest surface kept");
+  char line[120];
+  std::snprintf(line, sizeof line, "the largest surface has %.1f %% of the area, expected at least 90 %%",
+                100 * largest.area_share);
+  repair.checks.push_back({"kept_area_share", largest.area_share >= kLeastKeptShare, largest.area_share, line});
+}
+
+void close_holes(Repair& repair) {
+  if (mesh_topology(repair.mesh).boundary_edges == 0) return;
+  const HoleFilling filling = fill_holes(repair.mesh);
+  repair.count("filled_holes", filling.filled, "holes closed by a patch that continues the surface");
+  const double share = filling.filled_area / surface_area(repair.mesh);
+  char line[120];
+  std::snprintf(line, sizeof line, "patches make up %.1f %% of the area, expected at most 20 %%", 100 * share);
+  repair.checks.push_back({"filled_area_share", share <= kLargestFilledShare, share, line});
+}
+
+void remove_self_intersections(Repair& repair) {
+  if (!mesh_topology(repair.mesh).is_closed()) return;
+  const std::size_t found = count_self_intersections(repair.mesh);
+  std::size_t left = found;
+  if (found > 0) {
+    const catalog::TriangleMesh recut = without_self_intersections(repair.mesh);
+    const MeshTopology before = mesh_topology(repair.mesh), after = mesh_topology(recut);
+    const double change = std::abs(signed_volume(recut) / signed_volume(repair.mesh) - 1);
+    const std::size_t left_after = after.is_closed() ? count_self_intersections(recut) : found;
+    if (after.is_closed() && after.euler_number == before.euler_number && change <= kLargestRecut &&
+        left_after < found) {
+      repair.mesh = recut;
+      left = left_after;
+      repair.count("self_intersections", found - left, "pairs of faces that cut one another recut");
+    }
+  }
+  repair.checks.push_back(
+      {"self_intersections", left == 0, static_cast<double>(left), "pairs of faces that cut one another, expected 0"});
+}
+
+/// Vertices with their area-weighted normals, so that a wrap can be drawn onto the mesh.
+PointCloud as_cloud(const catalog::TriangleMesh& mesh) {
+  PointCloud cloud{mesh.vertices, std::vector<Point>(mesh.vertices.size(), Point{})};
+  for (const catalog::Triangle& face : mesh.faces) {
+    const Point& origin = mesh.vertices[face[0]];
+    const Point area = cross(subtract(mesh.vertices[face[1]], origin), subtract(mesh.vertices[face[2]], origin));
+    for (const int v : face) cloud.normals[v] = add(cloud.normals[v], area);
+  }
+  for (Point& normal : cloud.normals) normal = normalized(normal);
+  return cloud;
+}
+
+/// Poisson surface of the mesh's vertices, for a mesh of many holes or of tangled shells.
+Reconstruction rebuilt_from_vertices(const catalog::TriangleMesh& mesh, int genus) {
+  ReconstructionOptions options;
+  options.method = ReconstructionMethod::poisson;
+  options.genus = genus;
+  return reconstruct_surface(as_cloud(mesh), options);
+}
+
+}  // namespace
+
+RepairedMesh repair_mesh(const catalog::TriangleMesh& scanned, const RepairOptions& options) {
+  Repair repair{scanned, {}};
+  clean(repair);
+  const bool was_closed = mesh_topology(repair.mesh).is_closed();
+  orient(repair);
+  turn_outwards(repair.mesh);
+  const catalog::TriangleMesh all_surfaces = repair.mesh;
+  keep_largest_surface(repair);
+  turn_outwards(repair.mesh);
+
+  SolidExpectation expectation;
+  expectation.genus = options.genus;
+  expectation.least_hull_ratio = kLeastHullRatio;
+  expectation.second_volume = winding_volume(surface_elements(repair.mesh, kElementLimit));
+
+  close_holes(repair);
+  turn_outwards(repair.mesh);
+  remove_self_intersections(repair);
+
+  RepairedMesh result;
+  std::vector<catalog::Check> verdict = solid_checks(repair.mesh, expectation);
+  // A mesh that came closed has its exact volume; the second method then informs, since it is coarse on thin shapes.
+  std::vector<catalog::Check> decisive = verdict;
+  if (was_closed)
+    std::erase_if(decisive, [](const catalog::Check& check) { return check.name == "volume_second_method"; });
+  for (const catalog::Check& check : repair.checks)
+    if (check.name == "filled_area_share" || check.name == "kept_area_share") decisive.push_back(check);
+  result.checks = repair.checks;
+  if (all_passed(decisive) && options.wrapping != Wrapping::always) {
+    result.mesh = std::move(repair.mesh);
+    result.checks.insert(result.checks.end(), verdict.begin(), verdict.end());
+    return result;
+  }
+
+  const std::string flaws = failures(decisive);
+  const std::string replaced = options.wrapping == Wrapping::always ? "" : "repair left " + flaws;
+  std::string tried = flaws;
+  if (options.wrapping == Wrapping::where_repair_fails) {
+    Reconstruction rebuilt = rebuilt_from_vertices(all_surfaces, options.genus);
+    // Where the mesh's own normals contradict its vertices, its patches are turned at random: nothing to build on.
+    const bool is_oriented = std::all_of(rebuilt.checks.begin(), rebuilt.checks.end(), [](const catalog::Check& check) {
+      return check.name != "given_normals" || check.passed;
+    });
+    if (!is_oriented) rebuilt.refusal = "its faces are not turned alike";
+    if (rebuilt.refusal.empty()) {
+      result.mesh = std::move(rebuilt.mesh);
+      result.checks.push_back({"repaired_solid", false, 0, replaced + "; rebuilt from its vertices instead"});
+      result.checks.insert(result.checks.end(), rebuilt.checks.begin(), rebuilt.checks.end());
+      return result;
+    }
+    tried += "; " + rebuilt.refusal;
+  }
+  if (options.wrapping != Wrapping::never) {
+    expectation.second_volume = winding_volume(surface_elements(all_surfaces, kElementLimit));
+    std::string wrap_flaws;
+    for (const double parts : kAlphaParts) {
+      const double alpha = bounding_diagonal(all_surfaces.vertices) / parts;
+      const catalog::TriangleMesh wrap = projected_to_cloud(alpha_wrap(all_surfaces, alpha, kOffsetPart * alpha),
+                                                            as_cloud(all_surfaces), mean_edge_length(all_surfaces));
+      verdict = solid_checks(wrap, expectation);
+      wrap_flaws = failures(verdict);
+      if (!wrap_flaws.empty()) continue;
+      result.mesh = wrap;
+      if (!replaced.empty())
+        result.checks.push_back({"repaired_solid", false, 0, replaced + "; alpha wrap taken instead"});
+      result.checks.push_back({"repair_alpha_wrap", true, alpha, "radius of the carving ball [m]"});
+      result.checks.insert(result.checks.end(), verdict.begin(), verdict.end());
+      return result;
+    }
+    tried += "; even the coarsest alpha wrap: " + wrap_flaws;
+  }
+  result.refusal = "the mesh cannot be made one right solid (" + tried + ")";
+  return result;
+}
+
+}  // namespace shape_pipeline

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shape_pipeline/meshes/self_intersections.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "shape_pipeline/surfaces/surface_mesh_conversion.h"
+
+namespace shape_pipeline {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+namespace PMP = CGAL::Polygon_mesh_processing;
+
+}  // namespace
+
+std::size_t count_self_intersections(const catalog::TriangleMesh& mesh) {
+  SurfaceMesh surface;
+  copy_to_surface_mesh(mesh, surface);
+  std::vector<std::pair<SurfaceMesh::Face_index, SurfaceMesh::Face_index>> pairs;
+  PMP::self_intersections<CGAL::Sequential_tag>(surface, std::back_inserter(pairs));
+  return pairs.size();
+}
+
+catalog::TriangleMesh without_self_intersections(const catalog::TriangleMesh& mesh) {
+  SurfaceMesh surface;
+  if (!copy_to_surface_mesh(mesh, surface)) return mesh;
+  PMP::experimental::remove_self_intersections(surface, CGAL::parameters::preserve_genus(true));
+  surface.collect_garbage();
+  return copy_from_surface_mesh(surface);
+}
+
+}  // namespace shape_pipeline

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shape_pipeline/reading/pcd_file.h"
+
+#include <pcl/PCLPointCloud2.h>
+#include <pcl/io/pcd_io.h>
+
+#include <cstdint>
+#include <cstring>
+#include <map>
+#include <optional>
+
+#include "shape_pipeline/reading/scan_bytes.h"
+
+namespace shape_pipeline {
+namespace {
+
+constexpr char kExportAgain[] = "copy or export the scan again as PCD";
+
+struct PcdHeader {
+  std::map<std::string, std::vector<std::string>, std::less<>> entries;
+  std::size_t points = 0, row_bytes = 0, row_words = 0, byte_count = 0;
+  std::string storage;  // "ascii", "binary" or "binary_compressed"
+};
+
+std::size_t count_of(const std::filesystem::path& path, const PcdHeader& header, const std::string& key) {
+  const auto entry = header.entries.find(key);
+  double count = -1;
+  if (entry == header.entries.end() || entry->second.empty() || !parse_number(entry->second[0], count) ||
+      !(count >= 0 && count < 2e9))
+    refuse_file(path, "header", "expected a count after " + key, kExportAgain);
+  return static_cast<std::size_t>(count);
+}
+
+PcdHeader parse_header(const std::filesystem::path& path, std::string_view bytes) {
+  PcdHeader header;
+  TextRows rows(bytes);
+  while (header.entries.find("DATA") == header.entries.end()) {
+    if (!rows.next()) refuse_file(path, "header", "the DATA line is missing: no PCD file, or truncated", kExportAgain);
+    const std::vector<std::string_view> words = words_of(rows.row());
+    static const std::string_view known[] = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
+                                             "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
+    if (std::find(std::begin(known), std::end(known), words[0]) == std::end(known))
+      refuse_file(path, rows.place(), "expected a PCD header line, found " + excerpt(rows.row()),
+                  "this is no PCD file; give it the ending of its real format or export it again");
+    header.entries[std::string(words[0])] = {words.begin() + 1, words.end()};
+  }
+  header.byte_count = static_cast<std::size_t>(rows.row().data() + rows.row().size() - bytes.data());
+  header.byte_count = std::min(bytes.find('\n', header.byte_count), bytes.size() - 1) + 1;
+
+  const auto& fields = header.entries["FIELDS"];
+  const auto& sizes = header.entries["SIZE"];
+  auto& counts = header.entries["COUNT"];
+  if (counts.empty()) counts.assign(fields.size(), "1");
+  if (fields.empty() || sizes.size() != fields.size() || counts.size() != fields.size() ||
+      header.entries["TYPE"].size() != fields.size())
+    refuse_file(path, "header", "expected as many entries in SIZE, TYPE and COUNT as in FIELDS", kExportAgain);
+  for (const char* name : {"x", "y", "z"})
+    if (std::find(fields.begin(), fields.end(), name) == fields.end())
+      refuse_file(path, "header", std::string("expected the fields x, y and z; ") + name + " is missing", kExportAgain);
+  for (std::size_t f = 0; f < fields.size(); ++f) {
+    double size = 0, count = 0;
+    if (!parse_number(sizes[f], size) || !parse_number(counts[f], count) || size < 1 || count < 0)
+      refuse_file(path, "header", "expected numbers in SIZE and COUNT", kExportAgain);
+    header.row_bytes += static_cast<std::size_t>(size * count);
+    header.row_words += static_cast<std::size_t>(count);
+  }
+  header.points = count_of(path, header, "WIDTH") * count_of(path, header, "HEIGHT");
+  if (header.entries["DATA"].empty()) refuse_file(path, "header", "expected a word after DATA", kExportAgain);
+  header.storage = header.entries["DATA"][0];
+  return header;
+}
+
+/// PCL fills what is missing with zeros, so the length is checked here.
+void check_body(const std::filesystem::path& path, const PcdHeader& header, std::string_view bytes) {
+  const std::string_view body = bytes.substr(header.byte_count);
+  const auto refuse_length = [&](const std::string& found) {
+    refuse_file(path, "body", "expected " + std::to_string(header.points) + " points, found " + found + ": truncated",
+                kExportAgain);
+  };
+  if (header.storage == "binary") {
+    if (body.size() < header.points * header.row_bytes) refuse_length(std::to_string(body.size() / header.row_bytes));
+  } else if (header.storage == "binary_compressed") {
+    std::uint32_t sizes[2] = {};
+    if (body.size() < sizeof sizes) refuse_length("no data");
+    std::memcpy(sizes, body.data(), sizeof sizes);
+    if (sizes[1] != header.points * header.row_bytes || body.size() - sizeof sizes < sizes[0])
+      refuse_length(std::to_string(body.size()) + " bytes of compressed data");
+  } else if (header.storage == "ascii") {
+    TextRows rows(body);
+    std::size_t count = 0;
+    std::vector<double> numbers;
+    while (rows.next()) {
+      numbers.clear();
+      if (!append_numbers(rows.row(), numbers) || numbers.size() != header.row_words)
+        refuse_file(path, "point " + std::to_string(count + 1),
+                    "expected " + std::to_string(header.row_words) + " numbers, found " + excerpt(rows.row()),
+                    kExportAgain);
+      ++count;
+    }
+    if (count < header.points) refuse_length(std::to_string(count));
+  } else {
+    refuse_file(path, "header", "expected DATA ascii, binary or binary_compressed, found " + excerpt(header.storage),
+                kExportAgain);
+  }
+}
+
+/// Values of one field, in double precision; nullopt if there is no such field of floating-point type.
+std::optional<std::vector<double>> column(const pcl::PCLPointCloud2& cloud, const std::string& name) {
+  for (const pcl::PCLPointField& field : cloud.fields) {
+    if (field.name != name) continue;
+    const bool is_double = field.datatype == pcl::PCLPointField::FLOAT64;
+    if (!is_double && field.datatype != pcl::PCLPointField::FLOAT32) return std::nullopt;
+    std::vector<double> values(static_cast<std::size_t>(cloud.width) * cloud.height);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::uint8_t* address = &cloud.data[i * cloud.point_step + field.offset];
+      float single = 0;
+      if (is_double)
+        std::memcpy(&values[i], address, sizeof(double));
+      else
+        std::memcpy(&single, address, sizeof(float)), values[i] = single;
+    }
+    return values;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+PointCloud read_pcd(const std::filesystem::path& path) {
+  const std::string bytes = read_scan_bytes(path);
+  check_body(path, parse_header(path, bytes), bytes);
+  pcl::PCLPointCloud2 stored;
+  if (pcl::PCDReader().read(path.string(), stored) < 0)
+    refuse_file(path, "", "PCL cannot read this PCD file", kExportAgain);
+
+  const auto columns = [&](const char* a, const char* b, const char* c) {
+    std::vector<catalog::Point> rows;
+    const auto x = column(stored, a), y = column(stored, b), z = column(stored, c);
+    if (!x || !y || !z) return rows;
+    for (std::size_t i = 0; i < x->size(); ++i) rows.push_back({(*x)[i], (*y)[i], (*z)[i]});
+    return rows;
+  };
+  PointCloud cloud;
+  cloud.points = columns("x", "y", "z");
+  if (cloud.points.empty()) refuse_file(path, "header", "expected x, y and z of type F", kExportAgain);
+  cloud.normals = columns("normal_x", "normal_y", "normal_z");
+  return cloud;
+}
+
+}  // namespace shape_pipeline

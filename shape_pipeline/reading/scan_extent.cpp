@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shape_pipeline/reading/scan_extent.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "catalog/mass_properties.h"
+#include "shape_pipeline/reading/scan_bytes.h"
+#include "shape_pipeline/surfaces/vector3.h"
+
+namespace shape_pipeline {
+namespace {
+
+constexpr double kFlatRatio = 1e-4;  // spread across / spread along: no particle is that thin, no scanner that exact
+
+}  // namespace
+
+void refuse_flat_scan(const std::filesystem::path& path, const std::vector<catalog::Point>& points) {
+  Point mean{};
+  for (const Point& p : points) mean = add(mean, scaled(p, 1.0 / static_cast<double>(points.size())));
+  catalog::Matrix3 covariance{};
+  for (const Point& p : points) {
+    const Point d = subtract(p, mean);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) covariance[i][j] += d[i] * d[j];
+  }
+  Point variance;
+  catalog::Matrix3 axes;
+  catalog::symmetric_eigen(covariance, variance, axes);
+  const auto spread = [&](int i) { return std::sqrt(std::max(variance[i], 0.0)); };
+  if (spread(0) > kFlatRatio * spread(2)) return;
+  // Sums of equal coordinates leave a spread of rounding errors.
+  double largest = 0;
+  for (const double coordinate : mean) largest = std::max(largest, std::abs(coordinate));
+  const double rounding = 1e-12 * largest * static_cast<double>(points.size());
+  const std::string found = !(spread(2) > rounding)               ? "all points are in one place"
+                            : spread(1) <= kFlatRatio * spread(2) ? "all points lie on one line"
+                                                                  : "all points lie in one plane";
+  refuse_file(path, "points", "expected a solid particle, but " + found, "scan it from all sides");
+}
+
+}  // namespace shape_pipeline

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "catalog/mass_properties.h"
+#include "catalog/shape_record.h"
+
+/// What the engine relies on, checked without the decomposition's own code.
+namespace partition_checks {
+
+__extension__ typedef __float128 Quad;
+
+/// normal . x - offset: products of doubles are exact in quadruple precision.
+inline Quad side(const catalog::FacePlane& plane, const catalog::Point& p) {
+  Quad value = -static_cast<Quad>(plane.offset);
+  for (int i = 0; i < 3; ++i) value += static_cast<Quad>(plane.normal[i]) * p[i];
+  return value;
+}
+
+inline double size_of(const catalog::ConvexPart& part) {
+  double size = 0;
+  for (const catalog::Point& p : part.vertices)
+    for (const catalog::Point& q : part.vertices)
+      size = std::max(size, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+  return size;
+}
+
+inline double volume(const catalog::ConvexPart& part) {
+  return catalog::volume_moments(catalog::triangulated(part)).volume;
+}
+
+inline double face_area(const catalog::ConvexPart& part, const catalog::ConvexFace& face) {
+  catalog::Point twice{};
+  const catalog::Point& o = part.vertices[face.vertices[0]];
+  for (std::size_t k = 2; k < face.vertices.size(); ++k) {
+    const catalog::Point &a = part.vertices[face.vertices[k - 1]], &b = part.vertices[face.vertices[k]];
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, l = (i + 2) % 3;
+      twice[i] += (a[j] - o[j]) * (b[l] - o[l]) - (a[l] - o[l]) * (b[j] - o[j]);
+    }
+  }
+  return std::hypot(twice[0], twice[1], twice[2]) / 2;
+}
+
+inline void expect_sound_part(const catalog::ConvexPart& part, int vertex_cap) {
+  ASSERT_GE(part.vertex_count(), 4u);
+  EXPECT_LE(part.vertex_count(), static_cast<std::size_t>(vertex_cap));
+  const double size = size_of(part);
+  std::set<int> used;
+  std::map<std::pair<int, int>, int> edges;
+  for (const catalog::ConvexFace& face : part.faces) {
+    ASSERT_GE(face.vertices.size(), 3u);
+    const auto& n = face.plane.normal;
+    EXPECT_NEAR(std::hypot(n[0], n[1], n[2]), 1, 1e-14);
+    EXPECT_GT(face_area(part, face), 0);
+    for (const catalog::Point& p : part.vertices) EXPECT_LE(static_cast<double>(side(face.plane, p)), 1e-9 * size);
+    for (std::size_t k = 0; k < face.vertices.size(); ++k) {
+      const int v = face.vertices[k], next = face.vertices[(k + 1) % face.vertices.size()];
+      used.insert(v);
+      EXPECT_NEAR(static_cast<double>(side(face.plane, part.vertices[v])), 0, 1e-9 * size);
+      EXPECT_TRUE(edges.emplace(std::pair{v, next}, 1).second) << "an edge is used twice in one direction";
+    }
+  }
+  for (const auto& [edge, count] : edges)
+    EXPECT_TRUE(edges.contains({edge.second, edge.first})) << "the part is not closed";
+  EXPECT_EQ(used.size(), part.vertex_count()) << "a vertex belongs to no face";
+  EXPECT_EQ(part.vertex_count() + part.face_count(), edges.size() / 2 + 2) << "Euler";
+  EXPECT_GT(volume(part), 0);
+}
+
+inline bool are_separated(const catalog::ConvexPart& a, const catalog::ConvexPart& b,
+                          const std::vector<catalog::FacePlane>& planes) {
+  const auto on_side = [](const catalog::ConvexPart& part, const catalog::FacePlane& plane, int sign) {
+    for (const catalog::Point& p : part.vertices)
+      if (sign * side(plane, p) < 0) return false;
+    return true;
+  };
+  for (const catalog::FacePlane& plane : planes)
+    if ((on_side(a, plane, -1) && on_side(b, plane, 1)) || (on_side(a, plane, 1) && on_side(b, plane, -1))) return true;
+  return false;
+}
+
+/// Sound parts, every pair separated by a face plane without any tolerance, so that no two parts overlap.
+inline void expect_partition(const catalog::LevelOfDetail& level) {
+  EXPECT_LE(level.parts.size(), static_cast<std::size_t>(level.parts_asked));
+  ASSERT_FALSE(level.parts.empty());
+  std::vector<catalog::FacePlane> planes;
+  for (const catalog::ConvexPart& part : level.parts) {
+    expect_sound_part(part, level.vertex_cap);
+    for (const catalog::ConvexFace& face : part.faces) planes.push_back(face.plane);
+  }
+  for (std::size_t a = 0; a < level.parts.size(); ++a)
+    for (std::size_t b = a + 1; b < level.parts.size(); ++b)
+      EXPECT_TRUE(are_separated(level.parts[a], level.parts[b], planes)) << "parts " << a << " and " << b;
+}
+
+/// Area of inner faces on each oriented plane, keyed by the plane's bits.
+using PlaneKey = std::array<double, 4>;
+inline std::map<PlaneKey, double> inner_areas(const catalog::LevelOfDetail& level) {
+  std::map<PlaneKey, double> areas;
+  for (const catalog::ConvexPart& part : level.parts)
+    for (const catalog::ConvexFace& face : part.faces)
+      if (face.kind == catalog::FaceKind::inner) {
+        const auto& n = face.plane.normal;
+        areas[{n[0] + 0.0, n[1] + 0.0, n[2] + 0.0, face.plane.offset + 0.0}] += face_area(part, face);
+      }
+  return areas;
+}
+
+/// Every plane with inner faces is there with its sign reversed, bit for bit, and carries about the same inner area.
+inline void expect_matching_cuts(const catalog::LevelOfDetail& level, double tolerance) {
+  const std::map<PlaneKey, double> areas = inner_areas(level);
+  for (const auto& [plane, area] : areas) {
+    const PlaneKey other{-plane[0] + 0.0, -plane[1] + 0.0, -plane[2] + 0.0, -plane[3] + 0.0};
+    ASSERT_TRUE(areas.contains(other)) << "no inner face on the other side of a cut";
+    EXPECT_NEAR(area / areas.at(other), 1, tolerance);
+  }
+}
+
+inline double total_volume(const catalog::LevelOfDetail& level) {
+  double sum = 0;
+  for (const catalog::ConvexPart& part : level.parts) sum += volume(part);
+  return sum;
+}
+
+}  // namespace partition_checks

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// talus-decompose on small catalogues, through its library and as a user starts it.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "catalog/input_error.h"
+#include "tests/support/solids.h"
+#include "tests/support/temporary_folder.h"
+#include "workflows/decompose_batch.h"
+
+namespace workflows {
+namespace {
+
+using test_support::TemporaryFolder;
+
+catalog::ShapeRecord shape(const std::string& name, const catalog::TriangleMesh& mesh) {
+  catalog::ShapeRecord record;
+  record.name = name;
+  record.mesh = mesh;
+  record.mass_properties = catalog::mass_properties(mesh);
+  record.provenance = {name + ".ply", std::string(64, 'a'), "talus test", "{}"};
+  return record;
+}
+
+catalog::ShapeCatalog small_catalog(const std::filesystem::path& path) {
+  catalog::ShapeCatalog shapes(path, catalog::ShapeCatalog::Access::read_write);
+  catalog::TriangleMesh open = solids::tetrahedron();
+  open.faces.pop_back();
+  shapes.store_shape(shape("angle", solids::l_shape()));
+  shapes.store_shape(shape("broken", open));
+  shapes.store_shape(shape("cube", solids::box({0, 0, 0}, {1, 1, 1})));
+  return shapes;
+}
+
+DecomposeBatchOptions one_and_two() {
+  DecomposeBatchOptions options;
+  options.part_counts = {1, 2};
+  return options;
+}
+
+int run(const std::string& arguments, const TemporaryFolder& folder) {
+  const std::string line = "'" TALUS_DECOMPOSE "' " + arguments + " >'" + (folder / "out").string() + "' 2>'" +
+                           (folder / "err").string() + "'";
+  const int status = std::system(line.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(DecomposeStage, StoresLevelsAndGoesOnPastABadShape) {
+  const TemporaryFolder folder;
+  catalog::ShapeCatalog shapes = small_catalog(folder / "ore.talus");
+  std::vector<std::string> seen;
+  const DecomposeBatchResult result =
+      decompose_shapes(shapes, one_and_two(), [&](const std::string& name, std::size_t of) {
+        EXPECT_EQ(of, 3u);
+        seen.push_back(name);
+      });
+  EXPECT_EQ(seen, (std::vector<std::string>{"angle", "broken", "cube"}));
+  ASSERT_EQ(result.failures.size(), 1u);
+  EXPECT_EQ(result.failures[0].shape, "broken");
+  EXPECT_EQ(result.levels.size(), 4u);
+  const catalog::LevelOfDetail level = shapes.level(*shapes.find("angle"), 2, 32);
+  EXPECT_EQ(level.parts.size(), 2u);
+  EXPECT_NEAR(level.error.symmetric_difference, 0, 1e-9);
+  EXPECT_EQ(level.provenance.source_sha256.size(), 64u);
+}
+
+TEST(DecomposeStage, KeepsWhatIsCurrentAndRemakesWhatIsNot) {
+  const TemporaryFolder folder;
+  catalog::ShapeCatalog shapes = small_catalog(folder / "ore.talus");
+  const auto quietly = [](const std::string&, std::size_t) {};
+  DecomposeBatchOptions options = one_and_two();
+  options.select = "name = 'cube'";
+  const auto made_new = [&] {
+    int count = 0;
+    for (const DecomposedLevel& level : decompose_shapes(shapes, options, quietly).levels) count += level.is_new;
+    return count;
+  };
+  EXPECT_EQ(made_new(), 2);
+  EXPECT_EQ(made_new(), 0);
+  options.part_counts = {1, 2, 4};
+  EXPECT_EQ(made_new(), 1);
+  options.quality.seed = 5;
+  EXPECT_EQ(made_new(), 3);
+  catalog::ShapeRecord other = shape("cube", solids::box({0, 0, 0}, {1, 1, 2}));
+  shapes.store_shape(other);
+  EXPECT_EQ(made_new(), 3);
+}
+
+TEST(DecomposeStage, QueryThatSelectsNothingIsRefused) {
+  const TemporaryFolder folder;
+  catalog::ShapeCatalog shapes = small_catalog(folder / "ore.talus");
+  DecomposeBatchOptions options = one_and_two();
+  options.select = "volume > 1000";
+  EXPECT_THROW(decompose_shapes(shapes, options, [](const std::string&, std::size_t) {}), catalog::InputError);
+}
+
+TEST(DecomposeStage, ExitStatusesAndJson) {
+  const TemporaryFolder folder;
+  { small_catalog(folder / "ore.talus"); }
+  const std::string catalog = "'" + (folder / "ore.talus").string() + "'";
+  EXPECT_EQ(run(catalog + " --parts 1,2 --json", folder), 3);  // one shape is broken
+  const auto json = nlohmann::json::parse(test_support::read_bytes(folder / "out"));
+  EXPECT_EQ(json["levels"].size(), 4u);
+  EXPECT_EQ(json["failures"][0]["shape"], "broken");
+  EXPECT_NE(test_support::read_bytes(folder / "err").find("broken: not decomposed: mesh: "), std::string::npos);
+  EXPECT_EQ(run(catalog + " --parts 1,2 --select \"name like 'cube'\"", folder), 0);
+  EXPECT_NE(test_support::read_bytes(folder / "out").find("kept"), std::string::npos);
+  EXPECT_EQ(run("--help", folder), 0);
+  EXPECT_EQ(run(catalog + " --vertices 400", folder), 2);
+  EXPECT_EQ(run(catalog + " --no-such-option", folder), 2);
+  EXPECT_EQ(run("'" + (folder / "none.talus").string() + "'", folder), 3);
+  EXPECT_FALSE(std::filesystem::exists(folder / "none.talus"));
+}
+
+}  // namespace
+}  // namespace workflows

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// talus-digitize as a user runs it: exit statuses, batches, repetition.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "catalog/shape_catalog.h"
+#include "shape_pipeline/mesh_file.h"
+#include "tests/support/sample_meshes.h"
+#include "tests/support/sample_shapes.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using namespace talus_test_support;
+
+struct ToolRun {
+  int status = -1;
+  std::string output, errors;
+};
+
+std::string contents(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+ToolRun digitize(const TemporaryFolder& folder, const std::string& arguments) {
+  const std::string command =
+      "cd '" + folder.path().string() + "' && '" TALUS_DIGITIZE "' " + arguments + " >out 2>err";
+  ToolRun run;
+  run.status = WEXITSTATUS(std::system(command.c_str()));
+  run.output = contents(folder / "out");
+  run.errors = contents(folder / "err");
+  return run;
+}
+
+TEST(DigitizeTool, ExitStatusesOfTheCommandLine) {
+  const TemporaryFolder folder;
+  shape_pipeline::write_stl(folder / "box.stl", box_mesh({0, 0, 0}, {1, 2, 3}));
+  const ToolRun help = digitize(folder, "--help");
+  EXPECT_EQ(help.status, 0);
+  EXPECT_EQ(help.output.find("Example: talus digitize"), 0u) << help.output;
+  EXPECT_EQ(digitize(folder, "--no-such-option").status, 2);
+  EXPECT_EQ(digitize(folder, "box.stl --unit mm").status, 2);         // no catalogue
+  EXPECT_EQ(digitize(folder, "--into a.talus --unit mm").status, 2);  // no scan
+  const ToolRun no_unit = digitize(folder, "box.stl --into a.talus");
+  EXPECT_EQ(no_unit.status, 3);
+  EXPECT_NE(no_unit.errors.find("--unit"), std::string::npos);
+  EXPECT_EQ(digitize(folder, "box.stl --into a.talus --unit parsec").status, 3);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.talus"));
+}
+
+TEST(DigitizeTool, ABatchGoesOnPastABadParticleAndIsIncremental) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "scans");
+  shape_pipeline::write_stl(folder / "scans/box.stl", box_mesh({0, 0, 0}, {1, 2, 3}));
+  shape_pipeline::write_stl(folder / "scans/ring.stl", torus(3, 1, 16));
+  shape_pipeline::write_stl(folder / "scans/sphere.stl", uv_sphere(1, 12));
+  write_text(folder / "scans/cut.ply", "ply\nformat ascii 1.0\n");
+  const ToolRun first = digitize(folder, "scans nowhere.stl --into ore.talus --unit mm --json");
+  EXPECT_EQ(first.status, 3);
+  EXPECT_NE(first.errors.find("3 of 5 scans rejected"), std::string::npos) << first.errors;
+  catalog::ShapeCatalog catalog(folder / "ore.talus", catalog::ShapeCatalog::Access::read_only);
+  EXPECT_EQ(catalog.select("").size(), 2u);
+  ASSERT_EQ(catalog.rejected().size(), 3u);
+  const catalog::ShapeRecord box = catalog.shape(*catalog.find("box"));
+  EXPECT_NEAR(box.mass_properties.volume, 6e-9, 1e-14);
+  EXPECT_EQ(box.provenance.source_sha256, catalog::sha256_of_file(folder / "scans/box.stl"));
+  EXPECT_FALSE(box.checks.empty());
+
+  const ToolRun again = digitize(folder, "scans/box.stl scans/sphere.stl --into ore.talus --unit mm --json");
+  EXPECT_EQ(again.status, 0) << again.errors;
+  EXPECT_EQ(again.output.find("stored"), std::string::npos) << again.output;
+  const ToolRun other_unit = digitize(folder, "scans/box.stl --into ore.talus --unit cm --json");
+  EXPECT_NE(other_unit.output.find("stored"), std::string::npos) << other_unit.output;
+}
+
+TEST(DigitizeTool, VirtualScansToTheSameCatalogueTwice) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(digitize(folder, "--make-virtual-scans scans --count 2 --seed 5 --points 2500").status, 0);
+  for (const char* name : {"a", "b"}) {
+    const ToolRun run = digitize(
+        folder, std::string("scans --truth scans/truth.json --unit m --size '30 mm' --json --into ") + name + ".talus");
+    ASSERT_EQ(run.status, 0) << run.errors;
+    write_text(folder / (std::string(name) + ".json"), run.output);
+  }
+  EXPECT_EQ(contents(folder / "a.json"), contents(folder / "b.json"));
+  EXPECT_EQ(contents(folder / "a.talus"), contents(folder / "b.talus"));
+  const catalog::ShapeCatalog catalog(folder / "a.talus", catalog::ShapeCatalog::Access::read_only);
+  const catalog::ShapeRecord rock = catalog.shape(*catalog.find("rock_02"));
+  EXPECT_NEAR(rock.descriptors.at("sieve_size_second_axis"), 0.03, 1e-9);
+  EXPECT_LT(std::abs(rock.descriptors.at("volume_error_truth")), 0.02);
+}
+
+}  // namespace

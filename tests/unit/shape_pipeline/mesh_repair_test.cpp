@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shape_pipeline/mesh_repair.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "shape_pipeline/mesh_remeshing.h"
+#include "shape_pipeline/mesh_topology.h"
+#include "shape_pipeline/virtual_scan.h"
+#include "tests/support/sample_meshes.h"
+#include "tests/support/sample_shapes.h"
+
+namespace shape_pipeline {
+namespace {
+
+using namespace talus_test_support;
+
+const RepairOptions kNoWrap{0, Wrapping::never};
+
+double figure(const std::vector<catalog::Check>& checks, const std::string& name) {
+  const auto check = std::find_if(checks.begin(), checks.end(), [&](const auto& c) { return c.name == name; });
+  return check == checks.end() ? -1 : check->figure;
+}
+
+/// Every face with vertices of its own, as STL has them.
+catalog::TriangleMesh unwelded(const catalog::TriangleMesh& mesh) {
+  catalog::TriangleMesh soup;
+  for (const auto& face : mesh.faces) {
+    const int first = static_cast<int>(soup.vertices.size());
+    for (const int v : face) soup.vertices.push_back(mesh.vertices[v]);
+    soup.faces.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
+catalog::TriangleMesh joined(catalog::TriangleMesh a, const catalog::TriangleMesh& b) {
+  const int first = static_cast<int>(a.vertices.size());
+  a.vertices.insert(a.vertices.end(), b.vertices.begin(), b.vertices.end());
+  for (const auto& face : b.faces) a.faces.push_back({face[0] + first, face[1] + first, face[2] + first});
+  return a;
+}
+
+void expect_solid(const RepairedMesh& repaired, double volume, double tolerance) {
+  ASSERT_EQ(repaired.refusal, "");
+  const MeshTopology topology = mesh_topology(repaired.mesh);
+  EXPECT_TRUE(topology.is_closed());
+  EXPECT_EQ(topology.components, 1u);
+  EXPECT_EQ(topology.euler_number, 2);
+  EXPECT_NEAR(signed_volume(repaired.mesh), volume, tolerance * volume);
+}
+
+TEST(MeshTopology, CountsOfKnownSolids) {
+  const MeshTopology box = mesh_topology(box_mesh({0, 0, 0}, {1, 1, 1}));
+  EXPECT_TRUE(box.is_closed());
+  EXPECT_EQ(box.euler_number, 2);
+  EXPECT_EQ(mesh_topology(torus(3, 1, 12)).euler_number, 0);
+  const MeshTopology two = mesh_topology(joined(box_mesh({0, 0, 0}, {1, 1, 1}), box_mesh({2, 0, 0}, {3, 1, 1})));
+  EXPECT_EQ(two.components, 2u);
+  EXPECT_EQ(two.euler_number, 4);
+}
+
+TEST(MeshRepair, WeldsASoup) {
+  const catalog::TriangleMesh box = box_mesh({0, 0, 0}, {1, 2, 3});
+  const RepairedMesh repaired = repair_mesh(unwelded(box), kNoWrap);
+  expect_solid(repaired, 6, 1e-12);
+  EXPECT_EQ(figure(repaired.checks, "repair_welded_vertices"), 36 - 8);
+}
+
+TEST(MeshRepair, WeldsNearlyEqualVertices) {
+  catalog::TriangleMesh soup = unwelded(uv_sphere(1, 12));
+  for (std::size_t v = 0; v < soup.vertices.size(); ++v) soup.vertices[v][0] += 1e-7 * (static_cast<double>(v % 3) - 1);
+  expect_solid(repair_mesh(soup, kNoWrap), signed_volume(uv_sphere(1, 12)), 1e-5);
+}
+
+TEST(MeshRepair, TurnsFlippedFaces) {
+  catalog::TriangleMesh mesh = uv_sphere(1, 12);
+  const double volume = signed_volume(mesh);
+  for (std::size_t f = 0; f < mesh.faces.size(); f += 5) std::swap(mesh.faces[f][1], mesh.faces[f][2]);
+  expect_solid(repair_mesh(mesh, kNoWrap), volume, 1e-12);
+  // All faces inwards: no edge tells, the sign of the volume does.
+  mesh = uv_sphere(1, 12);
+  for (auto& face : mesh.faces) std::swap(face[1], face[2]);
+  expect_solid(repair_mesh(mesh, kNoWrap), volume, 1e-12);
+}
+
+TEST(MeshRepair, FillsAHoleAlongTheSurface) {
+  catalog::TriangleMesh mesh = uv_sphere(1, 24);
+  const double volume = signed_volume(mesh);
+  // Without the cap within 30 degrees of the pole: flat filling would lose 1.3 % of the volume.
+  std::erase_if(mesh.faces, [&](const auto& face) {
+    return mesh.vertices[face[0]][2] > 0.866 && mesh.vertices[face[1]][2] > 0.866 && mesh.vertices[face[2]][2] > 0.866;
+  });
+  const RepairedMesh repaired = repair_mesh(mesh, kNoWrap);
+  expect_solid(repaired, volume, 0.004);
+  EXPECT_EQ(figure(repaired.checks, "repair_filled_holes"), 1);
+}
+
+TEST(MeshRepair, KeepsTheLargestOfTwoSurfaces) {
+  const RepairedMesh repaired =
+      repair_mesh(joined(box_mesh({5, 5, 5}, {5.2, 5.2, 5.2}), box_mesh({0, 0, 0}, {2, 2, 2})), kNoWrap);
+  expect_solid(repaired, 8, 1e-12);
+  EXPECT_EQ(figure(repaired.checks, "repair_dropped_surfaces"), 1);
+}
+
+TEST(MeshRepair, RemovesAFinAndDoubleAndDegenerateFaces) {
+  catalog::TriangleMesh mesh = box_mesh({0, 0, 0}, {1, 1, 1});
+  mesh.vertices.push_back({2, 2, 2});
+  mesh.faces.push_back({0, 1, 8});  // a third face on the edge 0-1
+  mesh.faces.push_back(mesh.faces[4]);
+  mesh.faces.push_back({3, 3, 1});
+  const RepairedMesh repaired = repair_mesh(mesh, {0, Wrapping::never});
+  EXPECT_EQ(figure(repaired.checks, "repair_duplicate_faces"), 1);
+  EXPECT_EQ(figure(repaired.checks, "repair_degenerate_faces"), 1);
+  EXPECT_EQ(figure(repaired.checks, "repair_non_manifold_edges"), 1);
+  // The fin's area (over 10 % of the box) goes against the kept share: refused by name, or repaired to the box.
+  if (repaired.refusal.empty())
+    EXPECT_NEAR(signed_volume(repaired.mesh), 1, 1e-9);
+  else
+    EXPECT_NE(repaired.refusal.find("largest surface has"), std::string::npos) << repaired.refusal;
+}
+
+TEST(MeshRepair, ARingNeedsItsGenusStated) {
+  const catalog::TriangleMesh ring = torus(3, 1, 24);
+  EXPECT_NE(repair_mesh(ring, kNoWrap).refusal.find("Euler number 0, expected 2"), std::string::npos);
+  const RepairedMesh repaired = repair_mesh(ring, {1, Wrapping::never});
+  ASSERT_EQ(repaired.refusal, "");
+  EXPECT_NEAR(signed_volume(repaired.mesh), signed_volume(ring), 1e-9);
+}
+
+TEST(MeshRepair, RefusesAnOpenSheetWithTheReason) {
+  // Half a sphere: patching it shut would invent more than a fifth of its area.
+  catalog::TriangleMesh mesh = uv_sphere(1, 16);
+  std::erase_if(mesh.faces, [&](const auto& face) {
+    return mesh.vertices[face[0]][2] < -1e-9 || mesh.vertices[face[1]][2] < -1e-9;
+  });
+  const RepairedMesh repaired = repair_mesh(mesh, kNoWrap);
+  EXPECT_TRUE(repaired.mesh.faces.empty());
+  EXPECT_NE(repaired.refusal.find("patches make up"), std::string::npos) << repaired.refusal;
+}
+
+TEST(MeshRepair, AWrapReplacesTangledShellsAndSaysSo) {
+  // Two spheres that overlap: each is closed, together they are one peanut-shaped solid.
+  const RepairedMesh repaired = repair_mesh(joined(uv_sphere(1, 24), moved(uv_sphere(1, 24), 1, {0.9, 0, 0})), {});
+  ASSERT_EQ(repaired.refusal, "");
+  EXPECT_EQ(figure(repaired.checks, "repaired_solid"), 0);
+  // Union of two unit balls at distance d: 8 pi / 3 minus the lens pi (4 + d) (2 - d)^2 / 12.
+  const double d = 0.9, pi = std::numbers::pi, lens = pi * (4 + d) * (2 - d) * (2 - d) / 12;
+  EXPECT_NEAR(signed_volume(repaired.mesh), 8 * pi / 3 - lens, 0.05 * (8 * pi / 3 - lens));
+}
+
+TEST(Remeshing, KeepsVolumeAndAreaOfARock) {
+  const catalog::TriangleMesh rock = virtual_rock({.seed = 7, .notch_depth = 0.3});
+  ASSERT_GT(rock.faces.size(), 10000u);
+  const RemeshedMesh remeshed = remesh(rock, {6000, RemeshingStyle::edge_collapse});
+  EXPECT_LE(remeshed.mesh.faces.size(), 6000u);
+  EXPECT_GE(remeshed.mesh.faces.size(), 5900u);
+  EXPECT_EQ(mesh_topology(remeshed.mesh).euler_number, 2);
+  EXPECT_NEAR(signed_volume(remeshed.mesh), signed_volume(rock), 1e-3 * signed_volume(rock));
+  EXPECT_NEAR(surface_area(remeshed.mesh), surface_area(rock), 1e-3 * surface_area(rock));
+}
+
+TEST(Remeshing, LeavesASmallMeshAloneAndIsotropicEvensEdges) {
+  const catalog::TriangleMesh sphere = uv_sphere(1, 24);
+  EXPECT_EQ(remesh(sphere, {10000, RemeshingStyle::edge_collapse}).mesh.faces, sphere.faces);
+  const RemeshedMesh even = remesh(sphere, {4000, RemeshingStyle::isotropic});
+  EXPECT_NEAR(static_cast<double>(even.mesh.faces.size()), 4000, 1200);
+  EXPECT_NEAR(signed_volume(even.mesh), signed_volume(sphere), 3e-3 * signed_volume(sphere));
+}
+
+}  // namespace
+}  // namespace shape_pipeline

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "shape_pipeline/shape_descriptors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/sample_meshes.h"
+#include "tests/support/sample_shapes.h"
+
+namespace shape_pipeline {
+namespace {
+
+using namespace talus_test_support;
+constexpr double pi = std::numbers::pi;
+
+double wadell(double volume, double area) { return std::cbrt(pi) * std::pow(6 * volume, 2.0 / 3) / area; }
+
+TEST(ShapeDescriptors, AreExactOnATurnedBox) {
+  const double s = 0.5, i = 0.8, l = 1.3;
+  auto d = shape_descriptors(moved(box_mesh({0, 0, 0}, {l, s, i}), 1, {3, -2, 1}));
+  const double volume = s * i * l, area = 2 * (s * i + i * l + l * s);
+  EXPECT_NEAR(d["volume"], volume, 1e-12);
+  EXPECT_NEAR(d["surface_area"], area, 1e-12);
+  EXPECT_NEAR(d["volume_hull"], volume, 1e-12);
+  EXPECT_NEAR(d["convexity_volume_ratio"], 1, 1e-12);
+  EXPECT_NEAR(d["axis_short_obb"], s, 1e-9);
+  EXPECT_NEAR(d["axis_intermediate_obb"], i, 1e-9);
+  EXPECT_NEAR(d["axis_long_obb"], l, 1e-9);
+  EXPECT_NEAR(d["sieve_size_second_axis"], i, 1e-9);
+  EXPECT_NEAR(d["zingg_s_over_i"], s / i, 1e-9);
+  EXPECT_NEAR(d["zingg_i_over_l"], i / l, 1e-9);
+  EXPECT_NEAR(d["sphericity_krumbein_intercept"], std::cbrt(s * i / (l * l)), 1e-9);
+  EXPECT_NEAR(d["flatness_kong_fonseca"], (i - s) / i, 1e-9);
+  EXPECT_NEAR(d["elongation_kong_fonseca"], (l - i) / l, 1e-9);
+  EXPECT_NEAR(d["sphericity_wadell"], wadell(volume, area), 1e-12);
+  EXPECT_NEAR(d["equivalent_diameter_volume"], std::cbrt(6 * volume / pi), 1e-12);
+  EXPECT_NEAR(d["feret_max"], std::sqrt(s * s + i * i + l * l), 1e-12);
+  // The orientation tensor's eigenvalues are the areas across each axis.
+  const double f1 = i * l, f2 = l * s, f3 = s * i;
+  EXPECT_NEAR(d["compactness_bagi_orosz"], f3 / f1, 1e-12);
+  EXPECT_NEAR(d["flakiness_bagi_orosz"], (f1 - f2) / f1, 1e-12);
+  EXPECT_NEAR(d["rodness_bagi_orosz"], (f2 - f3) / f1, 1e-12);
+  EXPECT_EQ(d["face_count"], 12);
+  // 12 box edges and 6 face diagonals.
+  const double edges = 4 * (s + i + l) + 2 * (std::hypot(s, i) + std::hypot(i, l) + std::hypot(l, s));
+  EXPECT_NEAR(d["mean_edge_length"], edges / 18, 1e-12);
+}
+
+TEST(ShapeDescriptors, OfTheTetrahedron) {
+  const double a = 2;
+  auto d = shape_descriptors(moved(tetrahedron(a), 1, {0, 0, 5}));
+  EXPECT_NEAR(d["volume"], a * a * a / (6 * std::sqrt(2.0)), 1e-12);
+  EXPECT_NEAR(d["surface_area"], std::sqrt(3.0) * a * a, 1e-12);
+  EXPECT_NEAR(d["sphericity_wadell"], wadell(a * a * a / (6 * std::sqrt(2.0)), std::sqrt(3.0) * a * a), 1e-12);
+  EXPECT_NEAR(d["compactness_bagi_orosz"], 1, 1e-9);
+  EXPECT_NEAR(d["feret_max"], a, 1e-12);
+  // The smallest box is the cube whose face diagonals are the edges.
+  for (const char* axis : {"axis_short_obb", "axis_intermediate_obb", "axis_long_obb"})
+    EXPECT_NEAR(d[axis], a / std::sqrt(2.0), 1e-3 * a) << axis;
+}
+
+TEST(ShapeDescriptors, OfTheOctahedron) {
+  const double a = 1.5, volume = std::sqrt(2.0) / 3 * a * a * a, area = 2 * std::sqrt(3.0) * a * a;
+  auto d = shape_descriptors(moved(octahedron(a), 1, {1, 0, 0}));
+  EXPECT_NEAR(d["volume"], volume, 1e-12);
+  EXPECT_NEAR(d["surface_area"], area, 1e-12);
+  EXPECT_NEAR(d["sphericity_wadell"], wadell(volume, area), 1e-12);
+  EXPECT_NEAR(d["feret_max"], a * std::sqrt(2.0), 1e-12);
+}
+
+TEST(ShapeDescriptors, OfFinerSpheresTendToOneWithTheSquareOfTheEdge) {
+  auto coarse = shape_descriptors(uv_sphere(1, 16)), fine = shape_descriptors(uv_sphere(1, 32));
+  EXPECT_LT(coarse["sphericity_wadell"], 1);
+  EXPECT_NEAR((1 - coarse["sphericity_wadell"]) / (1 - fine["sphericity_wadell"]), 4, 0.2);
+  EXPECT_NEAR((4 * pi / 3 - coarse["volume"]) / (4 * pi / 3 - fine["volume"]), 4, 0.1);
+  EXPECT_NEAR(fine["feret_max"], 2, 1e-12);
+  EXPECT_NEAR(fine["axis_short_obb"], 2, 0.02);
+  EXPECT_NEAR(fine["convexity_volume_ratio"], 1, 1e-9);
+}
+
+TEST(ShapeDescriptors, ConvexityOfANotchedBlock) {
+  // An L: the unit square prism of 2 x 2 x 1 without one quarter. The hull cuts the notch by a diagonal.
+  const catalog::TriangleMesh ell{{{0, 0, 0},
+                                   {2, 0, 0},
+                                   {2, 1, 0},
+                                   {1, 1, 0},
+                                   {1, 2, 0},
+                                   {0, 2, 0},
+                                   {0, 0, 1},
+                                   {2, 0, 1},
+                                   {2, 1, 1},
+                                   {1, 1, 1},
+                                   {1, 2, 1},
+                                   {0, 2, 1}},
+                                  {{0, 3, 1},   {1, 3, 2},  {0, 5, 3},  {3, 5, 4},   {6, 7, 9}, {7, 8, 9}, {6, 9, 11},
+                                   {9, 10, 11}, {0, 1, 7},  {0, 7, 6},  {1, 2, 8},   {1, 8, 7}, {2, 3, 9}, {2, 9, 8},
+                                   {3, 4, 10},  {3, 10, 9}, {4, 5, 11}, {4, 11, 10}, {5, 0, 6}, {5, 6, 11}}};
+  auto d = shape_descriptors(moved(ell, 1, {0, 0, 0}));
+  EXPECT_NEAR(d["volume"], 3, 1e-12);
+  EXPECT_NEAR(d["volume_hull"], 3.5, 1e-12);
+  EXPECT_NEAR(d["convexity_volume_ratio"], 3 / 3.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace shape_pipeline

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "catalog/shape_catalog.h"
+#include "decomposition/convex_decomposition.h"
+
+namespace workflows {
+
+struct DecomposeBatchOptions {
+  std::vector<int> part_counts{1, 2, 4, 8};
+  std::string select;  // catalogue query; empty: every shape
+  decomposition::DecompositionOptions quality;
+};
+
+/// One level of one shape, made now or kept from before.
+struct DecomposedLevel {
+  std::string shape;
+  catalog::LevelOfDetail level;
+  bool is_new = false;
+  double seconds = 0;  // wall time of all new levels of the shape together
+};
+
+struct DecomposeBatchResult {
+  std::vector<DecomposedLevel> levels;
+  struct Failure {
+    std::string shape, reason;
+  };
+  std::vector<Failure> failures;
+};
+
+/// Makes the levels that the selected shapes lack and stores them, one transaction a shape. A level counts as present
+/// if tool version, options and the mesh's bytes are the same. A shape that cannot be decomposed is listed and passed
+/// over. `about_to` is called before each shape with its name and the number of shapes. Throws InputError if the query
+/// selects nothing.
+DecomposeBatchResult decompose_shapes(catalog::ShapeCatalog& shapes, const DecomposeBatchOptions& options,
+                                      const std::function<void(const std::string& name, std::size_t of)>& about_to);
+
+std::string batch_text(const DecomposeBatchResult& result);
+std::string batch_json(const DecomposeBatchResult& result);
+
+}  // namespace workflows
