@@ -16,9 +16,9 @@ inline constexpr double kEnergyGoal = 0.02;
 
 /// A mill's power by two routes, and the curves behind it.
 struct MillFigures {
-  dem_gpu::Vec3 axis;        // unit
-  double angular_speed = 0;  // [rad/s]
-  RevolutionWindow window;
+  dem_gpu::Vec3 axis;         // unit
+  double angular_speed = 0;   // [rad/s]
+  RevolutionWindow window;    // the run's own where run.json has it; revolutions is 0 if they are not whole
   IntervalMean torque_power;  // [W]
   IntervalMean ledger_power;  // [W]
   std::vector<double> times;  // [s]

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <optional>
+#include <set>
 
 #include "catalog/input_error.h"
 #include "postprocess/run_figures.h"
@@ -124,18 +125,26 @@ int draw_pictures(const RunFolder& run) {
   return workflows::kDone;
 }
 
-/// Pictures that are there and newer than the run's last snapshot are kept; else all are drawn again, and those of
+/// Pictures that are there and newer than the run's last snapshot are kept; else all are drawn again, and then those of
 /// other snapshots go. Returns why there are none, or nothing.
 std::string make_pictures(const RunFolder& run, const std::vector<std::size_t>& chosen) {
   if (chosen.empty()) return "the run has no snapshots";
+  std::set<fs::path> wanted;
   bool are_current = true;
-  for (const std::size_t s : chosen)
+  for (const std::size_t s : chosen) {
+    wanted.insert(picture_file(run, s));
     are_current = are_current && is_newer(picture_file(run, s), {run.snapshots.back(), run.path / "geometry.h5"});
+  }
   if (are_current) return "";
+  const std::string failure = workflows::run_with_display({run.path.string(), "--draw-pictures"});
+  if (!failure.empty()) return failure;
+  std::vector<fs::path> outdated;
   for (const auto& entry : fs::directory_iterator(run.path / "post"))
-    if (entry.path().extension() == ".png" && entry.path().filename().string().starts_with("picture_"))
-      fs::remove(entry.path());
-  return workflows::run_with_display({run.path.string(), "--draw-pictures"});
+    if (entry.path().extension() == ".png" && entry.path().filename().string().starts_with("picture_") &&
+        !wanted.contains(entry.path()))
+      outdated.push_back(entry.path());
+  for (const fs::path& file : outdated) fs::remove(file);
+  return "";
 }
 
 std::string read_bytes(const fs::path& file) {

@@ -294,7 +294,7 @@ void add_ambient_occlusion(vtkRenderer* renderer, const RunGeometry& geometry) {
   if (size <= 0) return;
   renderer->UseSSAOOn();
   renderer->SetSSAORadius(1.1 * size);
-  renderer->SetSSAOBias(0.04 * size);
+  renderer->SetSSAOBias(0.12 * size);
   renderer->SetSSAOKernelSize(64);
   renderer->SSAOBlurOn();
 }

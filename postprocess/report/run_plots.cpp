@@ -42,7 +42,7 @@ NamedPlot power_plot(const MillFigures& mill) {
   }
   const auto [from, to] = std::pair{mill.torque_power.from_time, mill.torque_power.to_time};
   const int turns = mill.window.revolutions;
-  plot.curves.push_back({turns == 0   ? std::string("mean of the second half")
+  plot.curves.push_back({turns == 0   ? "mean from " + short_number(from, 3) + " s on"
                          : turns == 1 ? std::string("mean of the last whole revolution")
                                       : "mean of the last " + std::to_string(turns) + " whole revolutions",
                          {from, to},

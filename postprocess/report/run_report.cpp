@@ -154,7 +154,7 @@ std::string mill_boxes(const MillFigures& mill) {
           ? "mean of the last " + (mill.window.revolutions == 1
                                        ? std::string("whole revolution")
                                        : std::to_string(mill.window.revolutions) + " whole revolutions")
-          : std::string("mean of the second half (less than one revolution)");
+          : "mean from " + short_number(mill.window.from_time) + " s to " + short_number(mill.window.to_time) + " s";
   std::string boxes = figure_box(with_interval(mill.torque_power, "W"), "power from torque, " + window);
   if (!mill.accounts.times.empty())
     boxes += figure_box(with_interval(mill.ledger_power, "W"), "power from the energy ledger, same time");

@@ -4,11 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 namespace postprocess {
 namespace {
 
 using dem_gpu::Vec3;
+
+// Rounding of times written with few digits [share of the time].
+constexpr double kTimeSlack = 1e-6;
+// A window this near to whole revolutions counts as whole: it ends at a table row, not at the very angle [revolutions].
+constexpr double kTurnSlack = 0.02;
 
 /// Axis of the walls' rotation; nullopt if none turns.
 std::optional<Vec3> rotation_axis(const RunFolder& run, const std::optional<dem_gpu::Snapshot>& last) {
@@ -34,6 +40,19 @@ EnergyAccounts energy_accounts(const TimeSeries& series) {
   accounts.stored = sum({"kinetic", "gravitational", "elastic_normal", "elastic_tangential", "removed_energy"});
   accounts.dissipated = sum({"dissipated_normal", "dissipated_shear"});
   return accounts;
+}
+
+/// The window that the run itself averaged over, so that report and run tell one figure; else the last whole
+/// revolutions.
+RevolutionWindow averaging_window(const RunFolder& run, const MillFigures& mill) {
+  const RevolutionWindow own = whole_revolutions(mill.times, mill.angular_speed);
+  if (!run.summary || !run.summary->mill) return own;
+  const auto &from = run.summary->mill->from_time, &to = run.summary->mill->to_time;
+  if (!from || !to || *from < mill.times.front() || *to <= *from || *to > mill.times.back() * (1 + kTimeSlack))
+    return own;
+  const double turns = (*to - *from) * std::abs(mill.angular_speed) / (2 * std::numbers::pi);
+  const bool are_whole = turns > 0.5 && std::abs(turns - std::round(turns)) < kTurnSlack;
+  return {*from, *to, are_whole ? static_cast<int>(std::round(turns)) : 0};
 }
 
 /// Sum over the walls that turn, row by row of the first: all walls are written at the same times.
@@ -63,7 +82,7 @@ std::optional<MillFigures> mill_figures(const RunFolder& run, const std::optiona
   const auto half = static_cast<std::ptrdiff_t>(torque.size() / 2);
   mill.angular_speed =
       angular_speed_from({torque.begin() + half, torque.end()}, {mill.power.begin() + half, mill.power.end()});
-  mill.window = whole_revolutions(mill.times, mill.angular_speed);
+  mill.window = averaging_window(run, mill);
   mill.torque_power = power_from_torque({mill.times, torque, mill.angular_speed}, mill.window);
   if (run.series) {
     mill.accounts = energy_accounts(*run.series);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "postprocess/run_folder.h"
 
+#include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -51,12 +52,14 @@ class Section {
     }
     return list;
   }
-  std::vector<std::pair<double, double>> pairs(const char* key) const {
+  /// Rows of at least two numbers: the first, and the one in `column` if the row has it, else the second.
+  std::vector<std::pair<double, double>> pairs(const char* key, std::size_t column) const {
     std::vector<std::pair<double, double>> list;
     for (const json& item : items(key)) {
-      if (!item.is_array() || item.size() != 2 || !item[0].is_number() || !item[1].is_number())
-        refuse(key, "a list of pairs of numbers");
-      list.emplace_back(item[0].get<double>(), item[1].get<double>());
+      if (!item.is_array() || item.size() < 2 ||
+          !std::all_of(item.begin(), item.end(), [](const json& value) { return value.is_number(); }))
+        refuse(key, "rows of two or more numbers");
+      list.emplace_back(item[0].get<double>(), item[item.size() > column ? column : 1].get<double>());
     }
     return list;
   }
@@ -104,9 +107,19 @@ RunSummary::Mill mill_of(const Section& section) {
           section.number("to_time")};
 }
 
+/// Rows are size, passing by mass, passing by number; with two numbers, passing by the stated basis.
 RunSummary::SizeDistribution size_distribution_of(const Section& section) {
-  return {section.text("definition"), section.text("basis"), section.pairs("requested"), section.pairs("realised"),
-          section.number("d10"),      section.number("d50"), section.number("d80"),      section.number("d90")};
+  RunSummary::SizeDistribution sizes;
+  sizes.definition = section.text("definition");
+  sizes.basis = section.text("basis");
+  const std::size_t column = sizes.basis == "number" ? 2 : 1;
+  sizes.requested = section.pairs("requested", column);
+  sizes.realised = section.pairs("realised", column);
+  sizes.d10 = section.number("d10");
+  sizes.d50 = section.number("d50");
+  sizes.d80 = section.number("d80");
+  sizes.d90 = section.number("d90");
+  return sizes;
 }
 
 }  // namespace

@@ -193,12 +193,23 @@ TEST(RunFolder, SaysWhatIsWrongAndWhere) {
   EXPECT_NE(read().find("energy.imbalance: expected a number"), std::string::npos);
   write_bytes(folder / "run.json", R"({"shapes": [{"name": "a"}, {"name": 3}]})");
   EXPECT_NE(read().find("shapes[1].name: expected a string"), std::string::npos);
+  write_bytes(folder / "run.json", R"({"size_distribution": {"requested": [[0.01]]}})");
+  EXPECT_NE(read().find("size_distribution.requested: expected rows"), std::string::npos);
   write_bytes(folder / "run.json", "[]");
   EXPECT_NE(read().find("expected an object"), std::string::npos);
   write_bytes(folder / "run.json", "{}");
   EXPECT_EQ(read(), "");
   write_bytes(folder / "ledger.csv", "time[s],class,dissipation_normal[J]\n0,a\n");
   EXPECT_NE(read().find("ledger.csv: line 2"), std::string::npos);
+}
+
+TEST(RunFolder, SizeRowsMayHoldPassingByMassAndByNumber) {
+  const TemporaryFolder folder;
+  for (const auto& [basis, passing] : {std::pair{"mass", 0.5}, {"number", 0.7}}) {
+    write_bytes(folder / "run.json",
+                std::string(R"({"size_distribution": {"basis": ")") + basis + R"(", "realised": [[0.01, 0.5, 0.7]]}})");
+    EXPECT_EQ(read_run_summary(folder / "run.json").size_distribution->realised.at(0).second, passing);
+  }
 }
 
 TEST(RunFolder, GravityGivesUp) {
