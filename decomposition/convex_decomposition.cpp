@@ -2,6 +2,7 @@
 #include "decomposition/convex_decomposition.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <map>
@@ -24,7 +25,7 @@ namespace {
 
 constexpr double kFieldCells = 2e6;  // a rock of 30,000 faces gets cells about as wide as its triangles
 constexpr int kFitSteps = 500;       // of the final fits
-constexpr int kFitTries = 3;
+constexpr double kFitTries = 3;      // at effort 1
 constexpr double kExactSnap = 1e-9;  // of the size: exact pieces touch their cut planes already
 
 void check_options(const DecompositionOptions& options, const std::vector<int>& part_counts) {
@@ -127,7 +128,8 @@ class Decomposer {
     plan.steps = kFitSteps;
     plan.volume = piece.region.volume * volume_scale();
     plan.seed = sub_seed(options_.seed, 1000003ull + static_cast<std::uint64_t>(piece_number));
-    const PartFit fit = finish_part(solid_, piece.cell.planes, piece.region, plan, kFitTries);
+    const int tries = std::max(1, static_cast<int>(std::lround(kFitTries * options_.effort)));
+    const PartFit fit = finish_part(solid_, piece.cell.planes, piece.region, plan, tries);
     if (!fit.is_valid()) return std::nullopt;
     return build_part(fit.points, piece.cell, kSnapShare * bounding_box(fit.points).diagonal());
   }

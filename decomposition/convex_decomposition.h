@@ -14,7 +14,7 @@ struct DecompositionOptions {
   int parts = 8;                    // at most; fewer where more would not help or would make slivers
   int vertex_cap = 32;              // of each part, 8 to 64
   std::uint64_t seed = 1;           // same mesh, options and seed: same bytes, whatever `threads` is
-  double effort = 1;                // scales the number of cuts tried, 0.1 to 100; time grows in proportion
+  double effort = 1;                // scales the number of cuts and fits tried, 0.1 to 100; time grows in proportion
   double smallest_thickness = 0.1;  // of a part / thickness of the whole
   double smallest_volume = 0.01;    // of a part / volume of the whole
   int threads = 0;                  // 0: as many as the machine has
