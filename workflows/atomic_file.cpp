@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "workflows/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace workflows {
+
+void write_whole(const std::filesystem::path& file, const std::string& text) {
+  const std::filesystem::path beside = file.string() + ".part";
+  const auto fail = [&](const char* action) {
+    throw std::runtime_error(beside.string() + ": cannot " + action + ": " + std::strerror(errno));
+  };
+  const int descriptor = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (descriptor < 0) fail("open");
+  std::size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t written = ::write(descriptor, text.data() + done, text.size() - done);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      const int reason = errno;
+      ::close(descriptor);
+      errno = reason;
+      fail("write");
+    }
+    done += static_cast<std::size_t>(written);
+  }
+  const bool is_flushed = ::fsync(descriptor) == 0;
+  if (::close(descriptor) != 0 || !is_flushed) fail("flush");
+  std::filesystem::rename(beside, file);
+}
+
+std::optional<std::string> read_whole(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  if (!stream || std::filesystem::is_directory(file)) return std::nullopt;
+  text << stream.rdbuf();  // an empty file sets failbit: nothing to copy, not an error
+  return stream.bad() ? std::nullopt : std::optional(text.str());
+}
+
+}  // namespace workflows

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace workflows {
+
+/// Writes beside, flushes to disk, renames: a reader sees the old file or the new one, whole.
+/// Throws std::runtime_error if the disk refuses.
+void write_whole(const std::filesystem::path& file, const std::string& text);
+
+/// nullopt if the file cannot be read.
+std::optional<std::string> read_whole(const std::filesystem::path& file);
+
+}  // namespace workflows
