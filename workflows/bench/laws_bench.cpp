@@ -49,7 +49,8 @@ struct ClosedPath {
   double swing = 0;     // amplitude [rad], twice as fast as the ellipse
 };
 
-constexpr int kPathSteps = 4000;
+/// Enough for the error of the sum to stay ten times below the goal where flat faces meet at once.
+constexpr int kPathSteps = 40000;
 
 struct PathWork {
   double share;  // net work over the range the work went through

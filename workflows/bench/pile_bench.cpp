@@ -34,10 +34,10 @@ Scene pile_scene() {
   scene.name = "pile";
   scene.materials = {{"rock", 2700}};
   scene.contact = {{{0.5, 0.5}}};
-  const auto& parts = std::get<dem_gpu::PolyhedralShape>(l_shape(2).geometry).parts;
-  // The L fills 3/4 of a 2 x 2 x 1 block: scaled to the size of the others.
+  const dem_gpu::Shape l = l_shape(2);  // 2 x 2 x 1
   scene.shapes = {dem_gpu::polyhedral_shape("box", {dem_gpu::box_part({kSize, 0.8 * kSize, 0.6 * kSize})}),
-                  dem_gpu::polyhedral_shape("L", parts), dem_gpu::sphere_shape("sphere", 0.4 * kSize)};
+                  dem_gpu::polyhedral_shape("L", std::get<dem_gpu::PolyhedralShape>(l.geometry).parts),
+                  dem_gpu::sphere_shape("sphere", 0.4 * kSize)};
   constexpr int kAcross = 6;
   const double pitch = 1.25 * kSize;
   std::mt19937_64 random(300);
