@@ -49,6 +49,8 @@ struct ClosedPath {
   double swing = 0;     // amplitude [rad], twice as fast as the ellipse
 };
 
+/// Of the swing against the ellipse: no path is its own mirror image, or any law would come out even.
+constexpr double kSwingPhase = 1;
 /// Enough for the error of the sum to stay ten times below the goal where flat faces meet at once.
 constexpr int kPathSteps = 40000;
 
@@ -64,12 +66,13 @@ PathWork path_work(const ClosedPath& path, const PolyhedralLaw& law) {
   for (int i = 0; i < kPathSteps; ++i) {
     const double s = 2 * std::numbers::pi * (i + 0.5) / kPathSteps;
     const Vec3 position = path.centre + std::cos(s) * path.cosine + std::sin(s) * path.sine;
-    const BodyPose pose{position, axis_angle(path.swing_axis, path.swing * std::sin(2 * s)) * path.attitude};
+    const BodyPose pose{position,
+                        axis_angle(path.swing_axis, path.swing * std::sin(2 * s + kSwingPhase)) * path.attitude};
     const ProbeContact contact = probe.contact({path.fixed, pose});
     const Vec3 speed = std::cos(s) * path.sine - std::sin(s) * path.cosine;  // d position / ds
     // On b: the opposite force; the torque about b's origin follows from the one about a's.
     const Vec3 torque_b = cross(pose.position - path.fixed.position, contact.force) - contact.torque_a;
-    const double turning = 2 * path.swing * std::cos(2 * s) * dot(torque_b, path.swing_axis);
+    const double turning = 2 * path.swing * std::cos(2 * s + kSwingPhase) * dot(torque_b, path.swing_axis);
     work += (turning - dot(contact.force, speed)) * 2 * std::numbers::pi / kPathSteps;
     least = std::min(least, work);
     largest = std::max(largest, work);
