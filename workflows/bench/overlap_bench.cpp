@@ -24,6 +24,11 @@ using dem_gpu::Vec3;
 constexpr double kDegree = std::numbers::pi / 180;
 /// Relative error allowed where the closed form is exact: a few hundred roundings of the overlap's own size.
 constexpr double kExact = 1e-12;
+/// After a motion by ten edges poses are rounded to 1e-15 of an edge, a share of 1e-12 of the thinnest overlap here.
+constexpr double kExactAfterMotion = 1e-10;
+constexpr int kMotions = 100;
+/// Pairs placed farther off test just that, and are not moved about besides [edges].
+constexpr double kFarAway = 1e3;
 
 const Vec3 kUnit{1, 1, 1};
 const Vec3 kDiagonal = kUnit / std::sqrt(3.0);
@@ -55,23 +60,62 @@ double relative_error(double value, double exact) {
   return std::abs(value - exact) / (exact != 0 ? std::abs(exact) : 1);
 }
 
+/// The pair after one rigid motion of both bodies.
+PosePair moved(const PosePair& poses, const Quaternion& rotation, const Vec3& shift) {
+  const auto move = [&](const BodyPose& pose) {
+    return BodyPose{rotate(rotation, pose.position) + shift, rotation * pose.orientation, pose.scale};
+  };
+  return {move(poses.a), move(poses.b)};
+}
+
+/// Worst error of V over random rigid motions of the pair by up to ten edges.
+double error_after_motions(const ExactOverlap& pair) {
+  const OverlapProbe probe = volume_probe(pair.a, pair.b);
+  std::mt19937_64 random(12);
+  double worst = 0;
+  for (int i = 0; i < kMotions; ++i) {
+    const Vec3 shift = uniform(random, 0, 10) * random_direction(random);
+    const double volume = probe.overlap(moved(pair.poses, random_rotation(random), shift)).volume;
+    worst = std::max(worst, relative_error(volume, pair.volume));
+  }
+  return worst;
+}
+
+/// No overlap, or one that is its own mirror image about the bodies' common centre: the contact force is zero.
+bool has_no_force(const ExactOverlap& pair) {
+  return pair.volume == 0 || pair.poses.a.position == pair.poses.b.position;
+}
+
 CaseResult measure_exact(const std::vector<ExactOverlap>& pairs) {
-  double volume_error = 0, centroid_error = 0, area_error = 0;
-  bool has_centroid = false;
+  double volume_error = 0, centroid_error = 0, area_error = 0, stray_force = 0;
+  std::optional<double> motion_error;
+  bool has_centroid = false, has_balanced = false;
   for (const ExactOverlap& pair : pairs) {
     const auto found = volume_probe(pair.a, pair.b).overlap(pair.poses);
     const auto swapped = volume_probe(pair.b, pair.a).overlap({pair.poses.b, pair.poses.a});
     for (const double volume : {found.volume, swapped.volume})
       volume_error = std::max(volume_error, relative_error(volume, pair.volume));
     area_error = std::max(area_error, norm(found.area + swapped.area));
+    if (norm(pair.poses.a.position) < kFarAway)
+      motion_error = std::max(motion_error.value_or(0), error_after_motions(pair));
+    if (has_no_force(pair)) {
+      has_balanced = true;
+      stray_force =
+          std::max(stray_force, norm(OverlapProbe(pair.a, pair.b, DepthPotential{1}).contact(pair.poses).force));
+    }
     if (!pair.centroid) continue;
     has_centroid = true;
     centroid_error = std::max(centroid_error, norm(found.centroid - *pair.centroid));
   }
   CaseResult result;
-  result.figures.push_back({"V, error", volume_error, "-", at_most(kExact), ""});
-  if (has_centroid) result.figures.push_back({"centroid, error", centroid_error, "edge", at_most(kExact), ""});
-  result.figures.push_back({"S of a in b plus S of b in a", area_error, "edge2", at_most(kExact), ""});
+  const auto add = [&](const std::string& name, double value, const std::string& unit, double bound) {
+    result.figures.push_back({name, value, unit, at_most(bound), ""});
+  };
+  add("V, error", volume_error, "-", kExact);
+  if (motion_error) add("V, error after rigid motions", *motion_error, "-", kExactAfterMotion);
+  if (has_centroid) add("centroid, error", centroid_error, "edge", kExact);
+  add("S of a in b plus S of b in a", area_error, "edge2", kExact);
+  if (has_balanced) add("depth potential, force that must vanish", stray_force, "k edge3", kExact);
   return result;
 }
 
@@ -170,10 +214,19 @@ CaseResult measure_depth_forms() {
   CaseResult result;
   const auto compare = [&](const std::string& name, const Shape& a, const Shape& b, const PosePair& poses,
                            double exact) {
-    const auto contact = OverlapProbe(a, b, law).contact(poses);
-    const Vec3 expected{0, 0, -exact};
-    result.figures.push_back(
-        {name + ", force error", norm(contact.force - expected) / std::max(exact, 1e-300), "-", at_most(kExact), ""});
+    const OverlapProbe probe(a, b, law);
+    const auto error = [&](const PosePair& pair, const Quaternion& rotation) {
+      return norm(probe.contact(pair).force - rotate(rotation, Vec3{0, 0, -exact})) / exact;
+    };
+    std::mt19937_64 random(12);
+    double worst = 0;
+    for (int i = 0; i < kMotions; ++i) {
+      const Quaternion rotation = random_rotation(random);
+      worst =
+          std::max(worst, error(moved(poses, rotation, uniform(random, 0, 10) * random_direction(random)), rotation));
+    }
+    result.figures.push_back({name + ", force error", error(poses, {}), "-", at_most(kExact), ""});
+    result.figures.push_back({name + ", force error after rigid motions", worst, "-", at_most(kExactAfterMotion), ""});
   };
   // Aligned faces: both fields are min(d, distance to the sides); their integral over the square is that of a frustum.
   double d = 0.01;
