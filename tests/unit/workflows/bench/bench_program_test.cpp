@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// talus-bench as a program.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "tests/support/temporary_folder.h"
+#include "workflows/bench/bench_registry.h"
+
+namespace {
+
+using test_support::read_bytes;
+using test_support::TemporaryFolder;
+
+struct Ended {
+  int status;
+  std::string out, error;
+};
+
+Ended run_bench(const TemporaryFolder& folder, const std::string& arguments) {
+  const auto out = folder / "stdout.txt", error = folder / "stderr.txt";
+  const std::string command =
+      "'" TALUS_BENCH "' " + arguments + " > '" + out.string() + "' 2> '" + error.string() + "'";
+  const int status = std::system(command.c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_bytes(out), read_bytes(error)};
+}
+
+TEST(BenchProgram, ListNamesEveryBenchAndItsCases) {
+  const TemporaryFolder folder;
+  const Ended ended = run_bench(folder, "--list");
+  EXPECT_EQ(ended.status, 0);
+  for (const workflows::Bench& bench : workflows::benches()) {
+    EXPECT_NE(ended.out.find(bench.name + ": "), std::string::npos);
+    for (const auto& bench_case : bench.plan({}).cases)
+      EXPECT_NE(ended.out.find(" " + bench_case.name), std::string::npos) << bench_case.name;
+  }
+}
+
+TEST(BenchProgram, AnUnknownNameIsAUsageErrorWithASuggestion) {
+  const TemporaryFolder folder;
+  const Ended ended = run_bench(folder, "overlp");
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_TRUE(ended.out.empty());
+  EXPECT_NE(ended.error.find("did you mean 'overlap'"), std::string::npos) << ended.error;
+}
+
+TEST(BenchProgram, AnUnknownCaseIsAUsageErrorWithASuggestion) {
+  const TemporaryFolder folder;
+  const Ended ended = run_bench(folder, "contact --case cube-fase");
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_NE(ended.error.find("did you mean 'cube-face'"), std::string::npos) << ended.error;
+}
+
+TEST(BenchProgram, NoNameOrAWrongOptionIsAUsageErrorAndHelpIsNot) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_bench(folder, "").status, 2);
+  EXPECT_EQ(run_bench(folder, "overlap --threads none").status, 2);
+  EXPECT_EQ(run_bench(folder, "--help").status, 0);
+}
+
+TEST(BenchProgram, JsonLinesHaveTheAgreedFieldsAndTheCommandGivesTheFigureAlone) {
+  const TemporaryFolder folder;
+  const Ended ended =
+      run_bench(folder, "laws --case exponent-edge-depth --json '" + (folder / "laws.json").string() + "'");
+  EXPECT_EQ(ended.status, 0) << ended.error;
+  EXPECT_NE(ended.out.find("exponent-edge-depth"), std::string::npos);
+  std::istringstream lines(read_bytes(folder / "laws.json"));
+  const std::vector<std::string> fields{"bench", "case", "figure", "value", "unit", "goal", "met", "command"};
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const auto figure = nlohmann::ordered_json::parse(line);
+    std::vector<std::string> names;
+    for (const auto& [name, value] : figure.items()) names.push_back(name);
+    EXPECT_EQ(names, fields);
+    EXPECT_EQ(figure["bench"], "laws");
+    EXPECT_TRUE(figure["value"].is_number());
+    EXPECT_EQ(figure["goal"].is_null(), figure["met"].is_null());
+    EXPECT_EQ(figure["command"], "talus bench laws --case exponent-edge-depth");
+  }
+  EXPECT_GT(count, 0);
+  EXPECT_NE(read_bytes(folder / "laws.md").find("| exponent-edge-depth |"), std::string::npos);
+  EXPECT_NE(read_bytes(folder / "laws_force.svg").find("<polyline"), std::string::npos);
+}
+
+TEST(BenchProgram, OutNamesAFolderForEverything) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_bench(folder, "overlap --case O1 --out '" + (folder / "new").string() + "'").status, 0);
+  EXPECT_FALSE(read_bytes(folder / "new/overlap.json").empty());
+  EXPECT_FALSE(read_bytes(folder / "new/overlap.md").empty());
+}
+
+TEST(BenchProgram, AMissedGoalEndsWithStatus4) {
+  const TemporaryFolder folder;
+  // The figures decide the status, whatever they are.
+  const Ended ended =
+      run_bench(folder, "laws --case cuts-L-2-3-depth --json '" + (folder / "cuts.json").string() + "'");
+  bool is_all_met = true;
+  std::istringstream lines(read_bytes(folder / "cuts.json"));
+  for (std::string line; std::getline(lines, line);)
+    is_all_met = is_all_met && nlohmann::json::parse(line)["met"] != false;
+  EXPECT_EQ(ended.status, is_all_met ? 0 : 4);
+}
+
+}  // namespace

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "workflows/bench/bench_report.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using namespace workflows;
+
+Figure figure(std::optional<double> value, std::optional<Goal> goal) {
+  return {"error", value, "-", goal, value ? "" : "no rebound"};
+}
+
+TEST(BenchReport, AGoalIsMetUpToItsBound) {
+  EXPECT_EQ(is_goal_met(figure(0.05, at_most(0.05))), true);
+  EXPECT_EQ(is_goal_met(figure(0.051, at_most(0.05))), false);
+  EXPECT_EQ(is_goal_met(figure(10, at_least(10))), true);
+  EXPECT_EQ(is_goal_met(figure(9.9, at_least(10))), false);
+  EXPECT_EQ(is_goal_met(figure(1e9, {})), std::nullopt);
+}
+
+TEST(BenchReport, AFailedRunMeetsNoGoal) {
+  EXPECT_EQ(is_goal_met(figure({}, at_most(1))), false);
+  EXPECT_EQ(is_goal_met(figure({}, {})), std::nullopt);
+}
+
+TEST(BenchReport, NotANumberMeetsNoGoal) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(is_goal_met(figure(nan, at_most(1))), false);
+  EXPECT_EQ(is_goal_met(figure(nan, at_least(1))), false);
+}
+
+TEST(BenchReport, JsonHasOneObjectALineWithTheFieldsOfTheProductPage) {
+  const std::string lines = json_lines({{"contact", "cube-face", figure(0.25, at_most(0.05)), "talus bench contact"},
+                                        {"contact", "cube-face", figure({}, {}), "talus bench contact"}});
+  const auto second = lines.find('\n') + 1;
+  const auto measured = nlohmann::json::parse(lines.substr(0, second));
+  EXPECT_EQ(measured, nlohmann::json::parse(R"({"bench": "contact", "case": "cube-face", "figure": "error",
+      "value": 0.25, "unit": "-", "goal": "<= 0.05", "met": false, "command": "talus bench contact"})"));
+  const auto failed = nlohmann::json::parse(lines.substr(second));
+  EXPECT_TRUE(failed["value"].is_null());
+  EXPECT_TRUE(failed["goal"].is_null());
+  EXPECT_TRUE(failed["met"].is_null());
+}
+
+TEST(BenchReport, TablesShowTheFailureInPlaceOfTheValue) {
+  const std::vector<ReportedFigure> figures{{"contact", "cube-face", figure({}, at_most(1)), "talus bench contact"}};
+  EXPECT_NE(text_table(figures).find("failed: no rebound"), std::string::npos);
+  EXPECT_NE(markdown_table("title", figures).find("| failed: no rebound |"), std::string::npos);
+}
+
+}  // namespace

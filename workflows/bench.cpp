@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <variant>
+
+#include "catalog/input_error.h"
+#include "catalog/nearest_word.h"
+#include "workflows/atomic_file.h"
+#include "workflows/bench/bench_registry.h"
+#include "workflows/bench/bench_report.h"
+#include "workflows/bench/log_plot.h"
+#include "workflows/stage_tool.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace workflows;
+
+constexpr const char* kHelp = R"(Measures speed and error on named cases.
+
+  talus bench --list
+  talus bench overlap
+  talus bench contact --json results/contact.json
+  talus bench laws --case face-slide-depth
+
+The table goes to stdout. --json FILE writes one JSON object a line; beside it stand the table in Markdown and the plots
+in SVG. Exit status 4 if a goal is missed or a run failed.)";
+
+struct Options {
+  std::string bench;
+  std::string only_case;  // empty: all
+  fs::path json;          // empty: none
+  fs::path out;           // folder of table and plots; empty: beside --json
+  std::vector<int> threads;
+  bool is_list = false;
+};
+
+/// The options; or, where the command line ends here (--help, or an error), the exit status.
+std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
+  Options options;
+  CLI::App app(kHelp, "talus bench");
+  app.add_option("NAME", options.bench, "bench to run");
+  app.add_option("--case", options.only_case, "this case alone");
+  app.add_option("--json", options.json, "file for the figures, one JSON object a line");
+  app.add_option("--out", options.out, "folder for table, plots and, without --json, the figures");
+  app.add_option("--threads", options.threads,
+                 "thread counts to compare, such as 1,2; default: the engine's own choice")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--list", options.is_list, "name the benches and their cases");
+  app.set_version_flag("--version", tool_version());
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error, std::cout, std::cerr) == 0 ? kDone : kUsage;
+  }
+  if (!options.is_list && options.bench.empty())
+    throw catalog::UsageError("no NAME; talus bench --list names the benches");
+  if (!options.json.empty() && options.out.empty()) options.out = fs::absolute(options.json).parent_path();
+  if (options.json.empty() && !options.out.empty()) options.json = options.out / (options.bench + ".json");
+  return options;
+}
+
+int list_benches() {
+  for (const Bench& bench : benches()) {
+    std::printf("%s: %s\n ", bench.name.c_str(), bench.summary.c_str());
+    for (const BenchCase& bench_case : bench.plan({}).cases) std::printf(" %s", bench_case.name.c_str());
+    std::printf("\n");
+  }
+  return kDone;
+}
+
+std::vector<BenchCase> chosen_cases(const BenchPlan& plan, const Options& options) {
+  if (options.only_case.empty()) return plan.cases;
+  std::vector<std::string> known;
+  for (const BenchCase& bench_case : plan.cases) {
+    if (bench_case.name == options.only_case) return {bench_case};
+    known.push_back(bench_case.name);
+  }
+  throw catalog::UsageError("bench '" + options.bench + "' has no case '" + options.only_case + "'; did you mean '" +
+                            *catalog::nearest_word(options.only_case, known) + "'?");
+}
+
+std::string command_of(const Options& options, const BenchCase& bench_case) {
+  std::string command = "talus bench " + options.bench + " --case " + bench_case.name;
+  for (std::size_t i = 0; i < options.threads.size(); ++i)
+    command += (i ? "," : " --threads ") + std::to_string(options.threads[i]);
+  return command;
+}
+
+struct Measured {
+  std::vector<ReportedFigure> figures;
+  std::vector<PlotCurve> curves;
+};
+
+Measured measure(const std::vector<BenchCase>& cases, const Options& options) {
+  Measured measured;
+  BatchProgress progress("bench " + options.bench, static_cast<int>(cases.size()));
+  for (const BenchCase& bench_case : cases) {
+    progress.step(bench_case.name);
+    CaseResult result = bench_case.measure();
+    for (Figure& figure : result.figures)
+      measured.figures.push_back({options.bench, bench_case.name, std::move(figure), command_of(options, bench_case)});
+    for (PlotCurve& curve : result.curves) measured.curves.push_back(std::move(curve));
+  }
+  progress.finish();
+  return measured;
+}
+
+void write_files(const Bench& bench, const BenchPlan& plan, const Measured& measured, const Options& options) {
+  const std::string stem = options.json.stem().string();
+  fs::create_directories(options.out);
+  fs::create_directories(fs::absolute(options.json).parent_path());
+  write_whole(options.json, json_lines(measured.figures));
+  write_whole(options.out / (stem + ".md"),
+              markdown_table("talus bench " + bench.name + ": " + bench.summary, measured.figures));
+  for (const PlotAxes& axes : plan.plots)
+    write_whole(options.out / (stem + "_" + axes.name + ".svg"), log_plot_svg(axes, measured.curves));
+}
+
+int run_bench(const Options& options) {
+  const Bench& bench = bench_named(options.bench);
+  const BenchPlan plan = bench.plan({options.threads});
+  const Measured measured = measure(chosen_cases(plan, options), options);
+  std::fputs(text_table(measured.figures).c_str(), stdout);
+  if (!options.json.empty()) write_files(bench, plan, measured, options);
+  for (const ReportedFigure& reported : measured.figures)
+    if (!reported.figure.value || is_goal_met(reported.figure) == false) return kCheckNotPassed;
+  return kDone;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return run_stage("bench", [&]() -> int {
+    const auto parsed = parse_options(argc, argv);
+    if (const auto* status = std::get_if<ExitStatus>(&parsed)) return *status;
+    const Options& options = std::get<Options>(parsed);
+    return options.is_list ? list_benches() : run_bench(options);
+  });
+}

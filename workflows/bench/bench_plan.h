@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace workflows {
+
+/// The bound a figure is asked to keep.
+struct Goal {
+  enum class Sense { at_most, at_least } sense;
+  double bound;
+};
+inline Goal at_most(double bound) { return {Goal::Sense::at_most, bound}; }
+inline Goal at_least(double bound) { return {Goal::Sense::at_least, bound}; }
+
+/// One measured number. A run that failed has no value but says why.
+struct Figure {
+  std::string name;
+  std::optional<double> value;
+  std::string unit;
+  std::optional<Goal> goal;
+  std::string failure;
+};
+
+/// Stands for a run that failed, in a curve.
+inline constexpr double kFailedRun = std::numeric_limits<double>::quiet_NaN();
+
+/// One line of a plot; points that are kFailedRun are named as failed instead of drawn.
+struct PlotCurve {
+  std::string plot;  // PlotAxes::name
+  std::string label;
+  std::vector<double> x, y;              // n_points
+  std::vector<std::string> point_names;  // n_points, for naming what failed
+};
+
+struct CaseResult {
+  std::vector<Figure> figures;
+  std::vector<PlotCurve> curves;
+};
+
+/// What `--case NAME` runs alone.
+struct BenchCase {
+  std::string name;
+  std::function<CaseResult()> measure;
+};
+
+/// A plot with logarithmic axes; each curve that names it is drawn in it.
+struct PlotAxes {
+  std::string name;  // of the file
+  std::string title;
+  std::string x_label;  // with its unit: "time [s]"
+  std::string y_label;
+};
+
+struct BenchPlan {
+  std::vector<BenchCase> cases;
+  std::vector<PlotAxes> plots;
+};
+
+struct BenchOptions {
+  std::vector<int> threads;  // counts to compare, where a bench runs the engine's threads
+};
+
+}  // namespace workflows

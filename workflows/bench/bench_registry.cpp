@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "workflows/bench/bench_registry.h"
+
+#include "catalog/input_error.h"
+#include "catalog/nearest_word.h"
+
+namespace workflows {
+
+const std::vector<Bench>& benches() {
+  static const std::vector<Bench> all{
+      {"contact", "single impacts: wall time against error of restitution and contact time", plan_contact_bench},
+      {"laws", "contact laws: energy round closed paths, cuts into parts, stiffness exponents", plan_laws_bench},
+      {"overlap", "overlap integrals: error against closed forms, time per pair", plan_overlap_bench},
+      {"pile", "300 mixed grains settling: speed, energy balance, overlap, threads", plan_pile_bench},
+      // A new bench: its file beside these, its function in the header, one line here.
+  };
+  return all;
+}
+
+const Bench& bench_named(const std::string& name) {
+  std::vector<std::string> known;
+  for (const Bench& bench : benches()) {
+    if (bench.name == name) return bench;
+    known.push_back(bench.name);
+  }
+  throw catalog::UsageError("no bench '" + name + "'; did you mean '" + *catalog::nearest_word(name, known) +
+                            "'? talus bench --list names all");
+}
+
+}  // namespace workflows

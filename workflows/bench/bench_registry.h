@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "workflows/bench/bench_plan.h"
+
+namespace workflows {
+
+struct Bench {
+  std::string name;
+  std::string summary;
+  BenchPlan (*plan)(const BenchOptions&);  // cheap: nothing is measured before a case is run
+};
+
+/// All benches that `talus bench NAME` knows.
+const std::vector<Bench>& benches();
+
+/// Throws catalog::UsageError with a suggestion for an unknown name.
+const Bench& bench_named(const std::string& name);
+
+// One function a bench, in the file of its name.
+BenchPlan plan_contact_bench(const BenchOptions& options);
+BenchPlan plan_laws_bench(const BenchOptions& options);
+BenchPlan plan_overlap_bench(const BenchOptions& options);
+BenchPlan plan_pile_bench(const BenchOptions& options);
+
+}  // namespace workflows
