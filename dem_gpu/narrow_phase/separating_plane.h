@@ -22,21 +22,30 @@ TALUS_HD inline bool lies_outside(const PartView& part, const HalfSpace& plane, 
   return true;
 }
 
-/// Outcodes of vertices (in the solid's frame) against the planes of a convex solid. Returns the face whose plane has
-/// all vertices outside, or -1. `closed`: a vertex on a plane counts as inside; of the two bodies of a pair one is
-/// closed, the other open, so that coincident faces count once.
-TALUS_HD inline int classify(const PartView& solid, const Vec3* vertices, int vertex_count, bool closed,
-                             FaceMask* outcode) {
+/// Planes within this distance, over the size of the two parts, count as one: above the rounding of the frame changes,
+/// far below any overlap that matters.
+constexpr Real kCoplanarity = 1e-12;
+
+/// Outcodes of vertices (in the solid's frame) against the planes of a convex solid; a vertex within `tolerance` of a
+/// plane counts as inside. `coplanar`: planes with three vertices or more on them, which may hold a face of the other
+/// part. Returns the face whose plane has all vertices outside, or -1.
+TALUS_HD inline int classify(const PartView& solid, const Vec3* vertices, int vertex_count, Real tolerance,
+                             FaceMask* outcode, FaceMask& coplanar) {
   for (int v = 0; v < vertex_count; ++v) outcode[v] = FaceMask{};
   for (int f = 0; f < solid.range.face_count; ++f) {
     const HalfSpace plane = solid.planes[f];
     bool all_outside = true;
+    int on_plane = 0;
     for (int v = 0; v < vertex_count; ++v) {
       const Real height = dot(plane.normal, vertices[v]) - plane.offset;
       if (height < 0) all_outside = false;
-      if (closed ? height > 0 : height >= 0) outcode[v].insert(f);
+      if (height > tolerance)
+        outcode[v].insert(f);
+      else if (height >= -tolerance)
+        ++on_plane;
     }
     if (all_outside) return f;
+    if (on_plane >= 3) coplanar.insert(f);
   }
   return -1;
 }
