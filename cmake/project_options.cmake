@@ -6,8 +6,9 @@ target_include_directories(project_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_features(project_options INTERFACE cxx_std_20)
 target_compile_definitions(project_options INTERFACE TALUS_VERSION="${PROJECT_VERSION}")
 target_compile_options(project_options INTERFACE
+  # No object of a vector type crosses a library boundary, so its calling convention (-Wpsabi) does not matter.
   # GCC 12 warns of overlapping copies in "literal" + std::string where there are none (GCC bug 105329).
-  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wno-restrict>
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wno-restrict -Wno-psabi>
   # CMake 3.25 drops CUDA standard 20 in silence with CUDA 13, so it is given by hand.
   $<$<COMPILE_LANGUAGE:CUDA>:-std=c++20 --extended-lambda --expt-relaxed-constexpr>)
 if(TALUS_WARNINGS_AS_ERRORS)

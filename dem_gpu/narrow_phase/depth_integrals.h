@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 #include "dem_gpu/contacts/elastic_contact.h"
 #include "dem_gpu/narrow_phase/part_overlap.h"
@@ -46,31 +48,24 @@ TALUS_HD inline PolygonDepth integrate_depth(const Polygon& polygon, const HalfS
   PolygonDepth sum;
   // A plane is no candidate if another one is below it at every corner: it suffices to compare with the plane whose
   // largest depth is least.
-  constexpr int kMaxCandidates = 24;
-  Real least_largest = 0;
-  int flattest = -1;
-  Real smallest[kMaxCandidates];
-  int candidate[kMaxCandidates];
+  constexpr int kLargest = NearDepthPlanes::kLargest;
+  ScratchArray<Real, kLargest> smallest;
+  ScratchArray<std::int16_t, kLargest> candidate;
+  Real least_largest = std::numeric_limits<Real>::max();
+  int flattest = 0;
   for (int i = 0; i < plane_count; ++i) {
-    Real high = depth_below(planes[i], polygon.corner[0]);
-    for (int c = 1; c < polygon.count; ++c) high = std::max(high, depth_below(planes[i], polygon.corner[c]));
-    if (flattest < 0 || high < least_largest) least_largest = high, flattest = i;
+    Real low = depth_below(planes[i], polygon.corner[0]), high = low;
+    for (int c = 1; c < polygon.count; ++c) {
+      const Real depth = depth_below(planes[i], polygon.corner[c]);
+      low = depth < low ? depth : low;
+      high = depth > high ? depth : high;
+    }
+    smallest[i] = low;
+    if (high < least_largest) least_largest = high, flattest = i;
   }
   int count = 0;
-  for (int i = 0; i < plane_count; ++i) {
-    Real low = depth_below(planes[i], polygon.corner[0]);
-    for (int c = 1; c < polygon.count; ++c) low = std::min(low, depth_below(planes[i], polygon.corner[c]));
-    if (i != flattest && low >= least_largest) continue;
-    if (count < kMaxCandidates) {
-      smallest[count] = low;
-      candidate[count++] = i;
-    } else {  // Keep the planes with the smallest depths.
-      int worst = 0;
-      for (int k = 1; k < count; ++k)
-        if (smallest[k] > smallest[worst]) worst = k;
-      if (low < smallest[worst]) smallest[worst] = low, candidate[worst] = i;
-    }
-  }
+  for (int i = 0; i < plane_count; ++i)
+    if (i == flattest || smallest[i] < least_largest) candidate[count++] = static_cast<std::int16_t>(i);
   if (count == 1) {
     add_linear_depth(polygon, planes[candidate[0]], normal, sum);
     return sum;
@@ -111,6 +106,7 @@ TALUS_HD inline PolygonDepth integrate_depth(const Polygon& polygon, const HalfS
 /// and the moment likewise with x cross n. Only outer faces enter.
 struct DepthIntegrals {
   static constexpr bool kNeedsInnerFaces = false;
+  static constexpr bool kNeedsDepthPlanes = true;
 
   Vec3 force;              // [m3]
   Vec3 moment;             // [m4]
@@ -123,7 +119,7 @@ struct DepthIntegrals {
   TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, const PartView& a,
                               const FrameChange& b_to_a) {
     const Vec3 normal = b_to_a.direction(plane_b.normal);
-    const PolygonDepth sum = integrate_depth(polygon, a.depth_planes, a.range.depth_plane_count, normal);
+    const PolygonDepth sum = integrate_depth(polygon, a.depth_planes, a.depth_plane_count, normal);
     add(sum.depth, sum.depth_moment, normal);
     area_b += sum.area * normal;
     largest_depth = std::max(largest_depth, sum.largest);
@@ -132,7 +128,7 @@ struct DepthIntegrals {
   TALUS_HD void add_surface_a(const Polygon& polygon, const HalfSpace& plane_a, const PartView& b,
                               const FrameChange& b_to_a) {
     const Vec3 normal_in_b = transpose_times(b_to_a.rotation, plane_a.normal);
-    const PolygonDepth sum = integrate_depth(polygon, b.depth_planes, b.range.depth_plane_count, normal_in_b);
+    const PolygonDepth sum = integrate_depth(polygon, b.depth_planes, b.depth_plane_count, normal_in_b);
     const Real s = b_to_a.scale, cube = s * s * s;
     const Vec3 moment_in_a = cube * (s * b_to_a.direction(sum.depth_moment) + sum.depth * b_to_a.translation);
     add(cube * sum.depth, moment_in_a, -plane_a.normal);

@@ -38,6 +38,7 @@ struct PartView {
   const FaceCorners* faces;
   const std::uint8_t* corners;
   const HalfSpace* depth_planes;
+  int depth_plane_count;
 };
 
 TALUS_HD inline PartView part_view(const ShapeView& shapes, int part) {
@@ -47,7 +48,8 @@ TALUS_HD inline PartView part_view(const ShapeView& shapes, int part) {
           shapes.planes + range.first_face,
           shapes.faces + range.first_face,
           shapes.corners,
-          shapes.depth_planes + range.first_depth_plane};
+          shapes.depth_planes + range.first_depth_plane,
+          range.depth_plane_count};
 }
 
 }  // namespace dem_gpu

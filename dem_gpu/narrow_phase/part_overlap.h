@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 
 #include "dem_gpu/narrow_phase/polygon.h"
 #include "dem_gpu/narrow_phase/separating_plane.h"
@@ -12,13 +14,13 @@ namespace dem_gpu {
 /// Equal normals: one of the two, the outer one rather than the inner one, else that of the open part; so coincident
 /// faces count once, and a face in another body's cut plane as if there were no cut.
 struct CoplanarRule {
-  FaceMask planes;  // of the solid, that may hold such a face
-  Real tolerance;   // [m]
-  bool is_closed;   // the solid is the closed one of the two
+  const PlaneSides& sides;
+  Real tolerance;  // [m]
+  bool is_closed;  // the solid is the closed one of the two
 
   TALUS_HD bool keeps(const Polygon& face, bool is_inner_face, const PartView& solid) const {
-    for (int f = 0; f < solid.range.face_count; ++f) {
-      if (!planes.contains(f)) continue;
+    for (int k = 0; k < sides.coplanar_count; ++k) {
+      const int f = sides.coplanar[k];
       const HalfSpace plane = solid.planes[f];
       bool lies_in_plane = true;
       for (int c = 0; c < face.count && lies_in_plane; ++c)
@@ -37,27 +39,30 @@ struct CoplanarRule {
 /// in the solid's frame, with their outcodes against the solid's planes. Each clipped face is an independent polygon;
 /// no topology is built. visitor(polygon in the solid's frame, face index). Returns false if a polygon was truncated.
 template <class Visitor>
-TALUS_HD bool visit_surface_inside(const PartView& surface, int face_count, const PartView& solid, const Vec3* vertices,
-                                   const FaceMask* outcode, const CoplanarRule& coplanar, Visitor&& visitor) {
+TALUS_HD bool visit_surface_inside(const PartView& surface, int face_count, const PartView& solid,
+                                   const PartVertices& vertices, const PlaneSides& sides, const CoplanarRule& coplanar,
+                                   Visitor&& visitor) {
   Polygon buffer[2];
+  ScratchArray<std::uint8_t, kMaxPartFaces> cutting;
   for (int f = 0; f < face_count; ++f) {
     const FaceCorners face = surface.faces[f];
-    const std::uint8_t* corner = surface.corners + face.first;
-    FaceMask outside_all = outcode[corner[0]], outside_some = outside_all;
-    for (int c = 1; c < face.count; ++c) {
-      outside_all = outside_all & outcode[corner[c]];
-      outside_some = outside_some | outcode[corner[c]];
+    bool is_outside = false;
+    int cutting_count = 0;
+    for (int k = 0; k < sides.plane_count && !is_outside; ++k) {
+      const std::uint64_t in_front = sides.outside[k] & face.vertices;
+      is_outside = in_front == face.vertices;
+      if (in_front != 0) cutting[cutting_count++] = sides.plane[k];
     }
-    if (!outside_all.is_empty()) continue;
+    if (is_outside) continue;
     Polygon* polygon = &buffer[0];
     Polygon* other = &buffer[1];
     polygon->count = face.count;
     polygon->is_truncated = false;
+    const std::uint8_t* corner = surface.corners + face.first;
     for (int c = 0; c < face.count; ++c) polygon->corner[c] = vertices[corner[c]];
-    if (!coplanar.planes.is_empty() && !coplanar.keeps(*polygon, f >= surface.range.outer_face_count, solid)) continue;
-    for (int plane = 0; plane < solid.range.face_count && polygon->count > 0; ++plane) {
-      if (!outside_some.contains(plane)) continue;
-      clip(*polygon, solid.planes[plane], *other);
+    if (sides.coplanar_count > 0 && !coplanar.keeps(*polygon, f >= surface.range.outer_face_count, solid)) continue;
+    for (int k = 0; k < cutting_count && polygon->count > 0; ++k) {
+      clip(*polygon, solid.planes[cutting[k]], *other);
       Polygon* swap = polygon;
       polygon = other;
       other = swap;
@@ -68,10 +73,67 @@ TALUS_HD bool visit_surface_inside(const PartView& surface, int face_count, cons
   return true;
 }
 
+/// Depth planes of a solid that can be the least somewhere in its overlap with the hull of `vertices`: a plane is out
+/// if all vertices lie deeper below it than the deepest lies below another.
+struct NearDepthPlanes {
+  static constexpr int kLargest = 128;
+  ScratchArray<HalfSpace, kLargest> plane;
+  int count;
+  bool is_truncated;
+};
+
+/// Depths of the shallowest and deepest vertex below a plane.
+struct DepthRange {
+  Real shallowest, deepest;
+};
+
+TALUS_HD inline DepthRange depth_range(const HalfSpace& plane, const PartVertices& vertices) {
+  Lanes lowest = vertices.height_over(plane, 0), highest = lowest;
+  for (int first = kLanes; first < vertices.padded_count; first += kLanes) {
+    const Lanes height = vertices.height_over(plane, first);
+    lowest = least(height, lowest);
+    highest = greatest(height, highest);
+  }
+  return {-greatest_lane(highest), -least_lane(lowest)};
+}
+
+/// `centre`, `radius`: bounding sphere of the vertices, which settles the planes on the solid's far side.
+TALUS_HD inline void find_near_depth_planes(const PartView& solid, const PartVertices& vertices, const Vec3& centre,
+                                            Real radius, NearDepthPlanes& near) {
+  ScratchArray<Real, NearDepthPlanes::kLargest> shallowest;
+  ScratchArray<std::int16_t, NearDepthPlanes::kLargest> candidate;
+  near.count = 0;
+  near.is_truncated = false;
+  int nearest = 0;
+  Real nearest_depth = std::numeric_limits<Real>::max();
+  for (int i = 0; i < solid.depth_plane_count; ++i) {
+    const Real depth = depth_below(solid.depth_planes[i], centre);
+    if (depth < nearest_depth) nearest_depth = depth, nearest = i;
+  }
+  Real bound = depth_range(solid.depth_planes[nearest], vertices).deepest;
+  int candidate_count = 0;
+  for (int i = 0; i < solid.depth_plane_count; ++i) {
+    const HalfSpace plane = solid.depth_planes[i];
+    if (depth_below(plane, centre) - radius > bound) continue;
+    const DepthRange range = depth_range(plane, vertices);
+    if (range.deepest < bound) bound = range.deepest;
+    if (range.shallowest > bound) continue;
+    if (candidate_count == NearDepthPlanes::kLargest) {
+      near.is_truncated = true;
+      return;
+    }
+    shallowest[candidate_count] = range.shallowest;
+    candidate[candidate_count++] = static_cast<std::int16_t>(i);
+  }
+  for (int k = 0; k < candidate_count; ++k)
+    if (shallowest[k] <= bound) near.plane[near.count++] = solid.depth_planes[candidate[k]];
+}
+
 enum class OverlapStatus : std::uint8_t { separated, overlapping, polygon_truncated };
 
 /// Sums `Integrals` over the overlap of part a of one body and part b of another. `b_to_a` and `a_to_b` are inverse
 /// frame changes; `separating` is the pair's cache. `Integrals` provides:
+///   kNeedsDepthPlanes                           whether depth fields are integrated
 ///   kNeedsInnerFaces                            whether cut faces are visited too
 ///   add_surface_b(polygon, plane_b, part_a, b_to_a)   a piece of b's surface inside a, polygon in a's frame
 ///   add_surface_a(polygon, plane_a, part_b, b_to_a)   a piece of a's surface inside b, polygon in b's frame
@@ -82,32 +144,42 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
   if (separating < 0 && lies_outside(a, b.planes[-separating - 1], a_to_b)) return OverlapStatus::separated;
   separating = 0;
 
-  ScratchArray<Vec3, kMaxPartVertices> vertices_b, vertices_a;
-  ScratchArray<FaceMask, kMaxPartVertices> outcode_b, outcode_a;
-  FaceMask coplanar_a, coplanar_b;
+  PartVertices vertices_b, vertices_a;
+  PlaneSides sides_b, sides_a;
   const Real tolerance_a = kCoplanarity * (a.range.radius + b_to_a.scale * b.range.radius);
   const Real tolerance_b = kCoplanarity * (b.range.radius + a_to_b.scale * a.range.radius);
-  for (int v = 0; v < b.range.vertex_count; ++v) vertices_b[v] = b_to_a.point(b.vertices[v]);
-  const int face_a = classify(a, vertices_b.data(), b.range.vertex_count, tolerance_a, outcode_b.data(), coplanar_a);
+  transform_vertices(b, b_to_a, vertices_b);
+  const int face_a = classify(a, vertices_b, tolerance_a, sides_b);
   if (face_a >= 0) {
     separating = static_cast<SeparatingPlane>(face_a + 1);
     return OverlapStatus::separated;
   }
-  for (int v = 0; v < a.range.vertex_count; ++v) vertices_a[v] = a_to_b.point(a.vertices[v]);
-  const int face_b = classify(b, vertices_a.data(), a.range.vertex_count, tolerance_b, outcode_a.data(), coplanar_b);
+  transform_vertices(a, a_to_b, vertices_a);
+  const int face_b = classify(b, vertices_a, tolerance_b, sides_a);
   if (face_b >= 0) {
     separating = static_cast<SeparatingPlane>(-face_b - 1);
     return OverlapStatus::separated;
   }
 
+  PartView solid_a = a, solid_b = b;
+  NearDepthPlanes near_a, near_b;
+  if constexpr (Integrals::kNeedsDepthPlanes) {
+    find_near_depth_planes(a, vertices_b, b_to_a.point(b.range.centre), b_to_a.scale * b.range.radius, near_a);
+    find_near_depth_planes(b, vertices_a, a_to_b.point(a.range.centre), a_to_b.scale * a.range.radius, near_b);
+    if (near_a.is_truncated || near_b.is_truncated) return OverlapStatus::polygon_truncated;
+    solid_a.depth_planes = near_a.plane.data();
+    solid_a.depth_plane_count = near_a.count;
+    solid_b.depth_planes = near_b.plane.data();
+    solid_b.depth_plane_count = near_b.count;
+  }
   const int faces_b = Integrals::kNeedsInnerFaces ? b.range.face_count : b.range.outer_face_count;
   const int faces_a = Integrals::kNeedsInnerFaces ? a.range.face_count : a.range.outer_face_count;
   const bool b_whole = visit_surface_inside(
-      b, faces_b, a, vertices_b.data(), outcode_b.data(), {coplanar_a, tolerance_a, true},
-      [&](Polygon& polygon, int face) { integrals.add_surface_b(polygon, b.planes[face], a, b_to_a); });
+      b, faces_b, a, vertices_b, sides_b, {sides_b, tolerance_a, true},
+      [&](Polygon& polygon, int face) { integrals.add_surface_b(polygon, b.planes[face], solid_a, b_to_a); });
   const bool a_whole = visit_surface_inside(
-      a, faces_a, b, vertices_a.data(), outcode_a.data(), {coplanar_b, tolerance_b, false},
-      [&](Polygon& polygon, int face) { integrals.add_surface_a(polygon, a.planes[face], b, b_to_a); });
+      a, faces_a, b, vertices_a, sides_a, {sides_a, tolerance_b, false},
+      [&](Polygon& polygon, int face) { integrals.add_surface_a(polygon, a.planes[face], solid_b, b_to_a); });
   return a_whole && b_whole ? OverlapStatus::overlapping : OverlapStatus::polygon_truncated;
 }
 

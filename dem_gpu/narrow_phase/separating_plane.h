@@ -3,8 +3,7 @@
 
 #include <cstdint>
 
-#include "dem_gpu/narrow_phase/face_mask.h"
-#include "dem_gpu/narrow_phase/part_frame.h"
+#include "dem_gpu/narrow_phase/part_vertices.h"
 
 namespace dem_gpu {
 
@@ -26,26 +25,51 @@ TALUS_HD inline bool lies_outside(const PartView& part, const HalfSpace& plane, 
 /// far below any overlap that matters.
 constexpr Real kCoplanarity = 1e-12;
 
-/// Outcodes of vertices (in the solid's frame) against the planes of a convex solid; a vertex within `tolerance` of a
-/// plane counts as inside. `coplanar`: planes with three vertices or more on them, which may hold a face of the other
-/// part. Returns the face whose plane has all vertices outside, or -1.
-TALUS_HD inline int classify(const PartView& solid, const Vec3* vertices, int vertex_count, Real tolerance,
-                             FaceMask* outcode, FaceMask& coplanar) {
-  for (int v = 0; v < vertex_count; ++v) outcode[v] = FaceMask{};
+/// On which side of the planes of a convex solid a set of vertices lies.
+struct PlaneSides {
+  ScratchArray<std::uint64_t, kMaxPartFaces> outside;  // of each cutting plane: bit v for a vertex in front of it
+  ScratchArray<std::uint8_t, kMaxPartFaces> plane;     // faces whose planes have vertices in front: they cut
+  int plane_count;
+  ScratchArray<std::uint8_t, kMaxPartFaces> coplanar;  // faces whose planes hold three vertices and more
+  int coplanar_count;
+};
+
+/// Sorts the vertices (in the solid's frame) by the solid's planes, after Cohen and Sutherland's outcodes. A vertex
+/// within `tolerance` [m] of a plane counts as inside. Returns a face whose plane has all vertices in front, or -1.
+TALUS_HD inline int classify(const PartView& solid, const PartVertices& vertices, Real tolerance, PlaneSides& sides) {
+  const std::uint64_t all = ~std::uint64_t{0} >> (64 - vertices.count);
+  sides.plane_count = sides.coplanar_count = 0;
+  int most_in_front = 0, best = 0;
   for (int f = 0; f < solid.range.face_count; ++f) {
     const HalfSpace plane = solid.planes[f];
-    bool all_outside = true;
-    int on_plane = 0;
-    for (int v = 0; v < vertex_count; ++v) {
-      const Real height = dot(plane.normal, vertices[v]) - plane.offset;
-      if (height < 0) all_outside = false;
-      if (height > tolerance)
-        outcode[v].insert(f);
-      else if (height >= -tolerance)
-        ++on_plane;
+    LaneBits in_front_lanes{}, touching_lanes{};
+    for (int first = 0; first < vertices.padded_count; first += kLanes) {
+      const Lanes height = vertices.height_over(plane, first);
+      in_front_lanes |= bits_above(height, tolerance, first);
+      touching_lanes |= bits_above(height, -tolerance, first);
     }
-    if (all_outside) return f;
-    if (on_plane >= 3) coplanar.insert(f);
+    const std::uint64_t in_front = join(in_front_lanes) & all, touching = join(touching_lanes) & all & ~in_front;
+    if (in_front == all) return f;
+    if (in_front != 0) {
+      const int count = count_bits(in_front);
+      sides.outside[sides.plane_count] = in_front;
+      sides.plane[sides.plane_count] = static_cast<std::uint8_t>(f);
+      if (count > most_in_front) most_in_front = count, best = sides.plane_count;
+      ++sides.plane_count;
+    }
+    // Three bits and more: clearing the lowest two leaves some.
+    const std::uint64_t without_lowest = touching & (touching - 1);
+    if ((without_lowest & (without_lowest - 1)) != 0)
+      sides.coplanar[sides.coplanar_count++] = static_cast<std::uint8_t>(f);
+  }
+  // The plane with most vertices in front comes first: it settles most faces at once.
+  if (sides.plane_count > 1) {
+    const std::uint64_t outside = sides.outside[best];
+    const std::uint8_t plane = sides.plane[best];
+    sides.outside[best] = sides.outside[0];
+    sides.plane[best] = sides.plane[0];
+    sides.outside[0] = outside;
+    sides.plane[0] = plane;
   }
   return -1;
 }

@@ -13,6 +13,7 @@ namespace dem_gpu {
 /// of the overlap, not the world's origin.
 struct VolumeIntegrals {
   static constexpr bool kNeedsInnerFaces = true;
+  static constexpr bool kNeedsDepthPlanes = false;
 
   Real volume = 0;    // V [m3]
   Vec3 area;          // S = integral over a's surface in b of n dA [m2]

@@ -75,8 +75,12 @@ PartRange append_part(HostShapeColumns& columns, const ConvexPart& part) {
     for (const ConvexFace& face : part.faces) {
       if (face.kind != kind) continue;
       columns.planes.push_back(to_half_space(face));
-      columns.faces.push_back({static_cast<int>(columns.corners.size()), static_cast<int>(face.vertices.size())});
-      for (const int vertex : face.vertices) columns.corners.push_back(static_cast<std::uint8_t>(vertex));
+      FaceCorners corners{static_cast<int>(columns.corners.size()), static_cast<int>(face.vertices.size())};
+      for (const int vertex : face.vertices) {
+        columns.corners.push_back(static_cast<std::uint8_t>(vertex));
+        corners.vertices |= std::uint64_t{1} << vertex;
+      }
+      columns.faces.push_back(corners);
       if (kind == FaceKind::outer) ++range.outer_face_count;
     }
   return range;

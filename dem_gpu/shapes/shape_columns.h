@@ -28,7 +28,9 @@ struct PartRange {
 struct FaceCorners {
   int first = 0;  // into corners
   int count = 0;
+  std::uint64_t vertices = 0;  // the same corners as a set: bit v for vertex v of the part
 };
+static_assert(kMaxPartVertices <= 64);
 
 struct ShapeRange {
   int first_part = 0, part_count = 0;  // 0 parts: a sphere
