@@ -108,10 +108,17 @@ Id dataset_creation(std::size_t rows, std::size_t columns, std::size_t element_s
   return properties;
 }
 
-Id link_creation() {
-  Id properties = property_list(H5P_LINK_CREATE);
-  H5Pset_create_intermediate_group(properties, 1);
-  return properties;
+/// Makes the groups on the way to `dataset`. HDF5 would make them itself, but with the time of day in their headers.
+bool make_groups(hid_t file, const std::string& dataset) {
+  Id creation = property_list(H5P_GROUP_CREATE);
+  H5Pset_obj_track_times(creation, false);
+  for (std::size_t slash = dataset.find('/'); slash != std::string::npos; slash = dataset.find('/', slash + 1)) {
+    const std::string path = dataset.substr(0, slash);
+    if (path.empty() || H5Lexists(file, path.c_str(), H5P_DEFAULT) > 0) continue;
+    const Id group(H5Gcreate2(file, path.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), H5Gclose);
+    if (!group.is_valid()) return false;
+  }
+  return true;
 }
 
 /// Flushes a file or folder to the disk; false with errno set if that fails.
@@ -145,8 +152,8 @@ struct Hdf5Writer::Handle {
     const hsize_t extent[2] = {shape.rows, shape.columns};
     const Id space(H5Screate_simple(2, extent, nullptr), H5Sclose);
     const Id creation = dataset_creation(shape.rows, shape.columns, H5Tget_size(file_type));
-    const Id links = link_creation();
-    const Id dataset(H5Dcreate2(id, name.c_str(), file_type, space, links, creation, H5P_DEFAULT), H5Dclose);
+    if (!make_groups(id, name)) fail("cannot create the group of dataset " + name);
+    const Id dataset(H5Dcreate2(id, name.c_str(), file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
     if (!dataset.is_valid()) fail("cannot create dataset " + name);
     if (shape.rows * shape.columns > 0)
       check(H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
