@@ -118,32 +118,59 @@ TEST(DecompositionInvariance, CubeSlidesOverASeam) {
   EXPECT_LT(norm(cut.velocity[1] - whole.velocity[1]), 1e-9);
 }
 
+/// An L of three unit cubes as a bar along x and a cube: half of the bar's +y face is covered. `mirrored`: the bar
+/// along y instead.
+std::vector<catalog::ConvexPart> bar_and_cube(bool mirrored) {
+  std::vector<Vec3> corners{{0, 0, 0}, {2, 0, 0}, {0, 1, 0}, {2, 1, 0}, {0, 0, 1},
+                            {2, 0, 1}, {0, 1, 1}, {2, 1, 1}, {1, 1, 0}, {1, 1, 1}};
+  std::vector<std::vector<int>> loops{{0, 4, 6, 2}, {1, 3, 7, 5},    {0, 1, 5, 4},   {2, 6, 9, 8},
+                                      {8, 9, 7, 3}, {0, 2, 8, 3, 1}, {4, 5, 7, 9, 6}};
+  auto cube = mirrored ? box_part({1, 0, 0}, {2, 1, 1}) : box_part({0, 1, 0}, {1, 2, 1});
+  cube.faces[mirrored ? 0 : 2].kind = catalog::FaceKind::inner;
+  if (mirrored) {
+    for (Vec3& corner : corners) std::swap(corner.x, corner.y);
+    for (auto& loop : loops) std::reverse(loop.begin(), loop.end());
+  }
+  auto bar = part_of(corners, loops);
+  bar.faces[3].kind = catalog::FaceKind::inner;
+  return {bar, cube};
+}
+
 TEST(DecompositionInvariance, InnerCornerOfAnLIsReported) {
-  // Known limit: in a re-entrant corner the depth field is built part by part and depends on the cut.
+  // Known limit: the depth field is built part by part. Where a cut goes on in the plane of an outer face (the bar's
+  // face, half covered) the field ends at the cut, and the force differs from that of another cut.
+  EXPECT_NEAR(dem_gpu::polyhedral_shape("L", bar_and_cube(false)).volume, 3, 1e-12);
+  EXPECT_NEAR(dem_gpu::polyhedral_shape("L", bar_and_cube(true)).volume, 3, 1e-12);
   const std::array<std::vector<Real>, 3> coarse{{{0, 1, 2}, {0, 1, 2}, {0, 1}}};
   const std::array<std::vector<Real>, 3> fine{{{0, 0.5, 1, 2}, {0, 1, 1.5, 2}, {0, 1}}};
   std::vector<std::array<int, 3>> cells;
   for (int x = 0; x < 3; ++x)
     for (int y = 0; y < 3; ++y)
       if (x < 2 || y < 1) cells.push_back({x, y, 0});
-  const auto three = grid_parts({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, coarse), seven = grid_parts(cells, fine);
-  const PairIntegrals few(three, {unit_cube()}, 0.15), many(seven, {unit_cube()}, 0.15);
-  double outside = 0, inside = 0;
+  const PairIntegrals cuts[] = {{grid_parts({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, coarse), {unit_cube()}, 0.15},
+                                {grid_parts(cells, fine), {unit_cube()}, 0.15},
+                                {bar_and_cube(false), {unit_cube()}, 0.15},
+                                {bar_and_cube(true), {unit_cube()}, 0.15}};
+  double grid = 0, outside = 0, inside = 0;
   std::mt19937 random(9);
   for (int i = 0; i < 200; ++i) {
     const Quaternion turn = random_rotation(random);
-    const auto differ = [&](const Vec3& centre) {
-      const auto a = few.of<dem_gpu::DepthIntegrals>({}, {centre, turn});
-      const auto b = many.of<dem_gpu::DepthIntegrals>({}, {centre, turn});
+    const auto differ = [&](int cut, const Vec3& centre) {
+      const auto a = cuts[0].of<dem_gpu::DepthIntegrals>({}, {centre, turn});
+      const auto b = cuts[cut].of<dem_gpu::DepthIntegrals>({}, {centre, turn});
       return norm(a.force) > 1e-9 ? norm(a.force - b.force) / norm(a.force) : 0;
     };
-    inside = std::max(inside, differ({1.55, 1.55, 0.5}));    // pressed into the corner
-    outside = std::max(outside, differ({-0.55, 0.9, 0.5}));  // against the long side, across a seam
+    const Vec3 corner{1.55, 1.55, 0.5}, long_side{-0.55, 0.9, 0.5};
+    grid = std::max({grid, differ(1, corner), differ(1, long_side)});
+    for (const int cut : {2, 3}) {
+      inside = std::max(inside, differ(cut, corner));
+      outside = std::max(outside, differ(cut, long_side));
+    }
   }
-  std::printf("  L of 3 and 7 parts: force differs by %.1e on the long side, by %.1e in the inner corner\n", outside,
-              inside);
-  EXPECT_LT(outside, 1e-12);
-  EXPECT_LT(inside, 1);
+  std::printf("  L in grid cuts: force differs by %.1e; as bar and cube: %.1e on the long side, %.1e in the corner\n",
+              grid, outside, inside);
+  EXPECT_LT(grid, 1e-12);
+  EXPECT_LT(std::max(outside, inside), 1);
 }
 
 }  // namespace
