@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "catalog/input_error.h"
 #include "catalog/triangle_mesh.h"
@@ -43,15 +44,38 @@ Real face_area(const catalog::ConvexPart& part, const catalog::ConvexFace& face)
   return norm(area);
 }
 
-/// Largest flat contact of a body: its largest outer face, or the least area assumed [m2].
-Real largest_contact_area(const Shape& shape, Real scale) {
-  const Real diameter = equivalent_diameter(shape, scale);
-  Real largest = kLeastContactArea * diameter * diameter;
-  if (const auto* polyhedron = std::get_if<PolyhedralShape>(&shape.geometry))
-    for (const catalog::ConvexPart& part : polyhedron->parts)
-      for (const catalog::ConvexFace& face : part.faces)
-        if (face.kind == catalog::FaceKind::outer) largest = std::max(largest, scale * scale * face_area(part, face));
+/// Largest flat outer face of a shape at scale 1; faces of several parts in one plane count as one, so that it does not
+/// depend on the cut [m2].
+Real largest_flat_area(const PolyhedralShape& polyhedron) {
+  struct Flat {
+    Vec3 normal;
+    Real offset, area;
+  };
+  std::vector<Flat> flats;
+  for (const catalog::ConvexPart& part : polyhedron.parts)
+    for (const catalog::ConvexFace& face : part.faces) {
+      if (face.kind != catalog::FaceKind::outer) continue;
+      const Vec3 normal{face.plane.normal[0], face.plane.normal[1], face.plane.normal[2]};
+      const Real area = face_area(part, face), offset = face.plane.offset;
+      const auto same = std::find_if(flats.begin(), flats.end(), [&](const Flat& flat) {
+        return dot(flat.normal, normal) > 1 - Real(1e-12) &&
+               std::abs(flat.offset - offset) <= Real(1e-6) * (std::abs(offset) + std::sqrt(area));
+      });
+      if (same == flats.end())
+        flats.push_back({normal, offset, area});
+      else
+        same->area += area;
+    }
+  Real largest = 0;
+  for (const Flat& flat : flats) largest = std::max(largest, flat.area);
   return largest;
+}
+
+/// Largest flat contact of a shape at scale 1: its largest flat face, or the least area assumed [m2].
+Real largest_contact_area(const Shape& shape) {
+  const Real diameter = equivalent_diameter(shape, 1), least = kLeastContactArea * diameter * diameter;
+  const auto* polyhedron = std::get_if<PolyhedralShape>(&shape.geometry);
+  return polyhedron ? std::max(least, largest_flat_area(*polyhedron)) : least;
 }
 
 Real mass_of(const Scene& scene, const Body& body) {
@@ -73,10 +97,11 @@ Real sphere_stiffness(const Scene& scene, const Body& body) {
   return Hertz{}.tangent_stiffness(Real(0.02) * radius, radius, modulus);
 }
 
-Real contact_stiffness(const Scene& scene, const Body& body) {
+/// `area`: largest contact area of the body's shape at scale 1 [m2].
+Real contact_stiffness(const Scene& scene, const Body& body, Real area) {
   const Shape& shape = scene.shapes[body.shape];
   if (std::holds_alternative<SphereShape>(shape.geometry)) return sphere_stiffness(scene, body);
-  return stiffness_per_area(scene.polyhedral_law) * largest_contact_area(shape, body.scale);
+  return stiffness_per_area(scene.polyhedral_law) * area * body.scale * body.scale;
 }
 
 struct CheckWall {
@@ -86,14 +111,17 @@ struct CheckWall {
     demand(is_unit(plane.normal) && is_finite(plane.point), place, "normal must be a unit vector");
   }
   void operator()(const Disc& disc) const {
+    demand(is_finite(disc.centre), place, "centre must be finite");
     demand(is_unit(disc.normal), place, "normal must be a unit vector");
     demand(is_positive(disc.radius), place, "radius must be positive");
   }
   void operator()(const Cylinder& cylinder) const {
+    demand(is_finite(cylinder.base), place, "base must be finite");
     demand(is_unit(cylinder.axis), place, "axis must be a unit vector");
     demand(is_positive(cylinder.radius) && is_positive(cylinder.length), place, "radius and length must be positive");
   }
   void operator()(const Cone& cone) const {
+    demand(is_finite(cone.base), place, "base must be finite");
     demand(is_unit(cone.axis), place, "axis must be a unit vector");
     demand(cone.base_radius >= 0 && cone.top_radius >= 0 && is_positive(cone.length), place,
            "radii must not be negative and length must be positive");
@@ -110,9 +138,13 @@ struct CheckWall {
 
 void check_materials(const Scene& scene) {
   demand(!scene.materials.empty(), "materials", "at least one is needed");
-  for (const Material& material : scene.materials)
-    demand(is_positive(material.density) && is_positive(material.youngs_modulus), "material '" + material.name + "'",
+  for (const Material& material : scene.materials) {
+    const std::string place = "material '" + material.name + "'";
+    demand(is_positive(material.density) && is_positive(material.youngs_modulus), place,
            "density and Young's modulus must be positive");
+    demand(material.poisson_ratio > -1 && material.poisson_ratio <= Real(0.5), place,
+           "Poisson's ratio must lie in -1 .. 0.5");
+  }
   demand(scene.contact.size() == scene.materials.size(), "contact", "one row a material is needed");
   for (std::size_t i = 0; i < scene.contact.size(); ++i) {
     demand(scene.contact[i].size() == scene.materials.size(), "contact", "one column a material is needed");
@@ -125,6 +157,12 @@ void check_materials(const Scene& scene) {
              "friction must not be negative");
     }
   }
+  for (std::size_t i = 0; i < scene.contact.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      demand(scene.contact[i][j].restitution == scene.contact[j][i].restitution &&
+                 scene.contact[i][j].friction_coefficient == scene.contact[j][i].friction_coefficient,
+             "contact of '" + scene.materials[j].name + "' with '" + scene.materials[i].name + "'",
+             "restitution and friction must be the same both ways");
 }
 
 void check_bodies(const Scene& scene) {
@@ -137,6 +175,9 @@ void check_bodies(const Scene& scene) {
     demand(is_positive(body.scale), place, "size must be positive");
     demand(is_finite(body.position) && is_finite(body.velocity) && is_finite(body.angular_velocity), place,
            "position and velocity must be finite");
+    const Quaternion& q = body.orientation;
+    demand(is_positive(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z), place,
+           "orientation must be a finite quaternion other than zero");
   }
 }
 
@@ -147,6 +188,11 @@ void check_walls(const Scene& scene) {
     demand(names.insert(wall.name).second, place, "there are two of that name");
     demand(wall.material >= 0 && wall.material < static_cast<int>(scene.materials.size()), place, "no such material");
     std::visit(CheckWall{place}, wall.geometry);
+    const Motion& motion = wall.motion;
+    demand(is_finite(motion.rotation_centre) && is_finite(motion.angular_velocity) && is_finite(motion.velocity) &&
+               std::isfinite(motion.start_time) && motion.ramp_time >= 0 && std::isfinite(motion.ramp_time),
+           place, "motion must be finite and its ramp time not negative");
+    demand(!wall.removed_at || !std::isnan(*wall.removed_at), place, "the time of removal must be a number");
   }
 }
 
@@ -157,12 +203,23 @@ bool has_shape(const Scene& scene, bool sphere) {
 }
 
 void check_run(const Scene& scene) {
+  demand(is_finite(scene.gravity), "gravity", "must be finite");
+  if (scene.outflow)
+    demand(is_unit(scene.outflow->direction) && !std::isnan(scene.outflow->height), "outflow",
+           "direction must be a unit vector and height a number");
+  if (scene.friction)
+    demand(scene.friction->tangential_stiffness_ratio >= 0 && std::isfinite(scene.friction->tangential_stiffness_ratio),
+           "friction", "tangential stiffness ratio must not be negative");
   if (has_shape(scene, false))
     demand(is_positive(stiffness_per_area(scene.polyhedral_law)), "contact law of polyhedra",
            "stiffness must be positive");
+  if (const auto* depth = std::get_if<DepthPotential>(&scene.polyhedral_law); depth && has_shape(scene, false))
+    demand(is_positive(depth->depth_cap), "contact law of polyhedra", "depth cap must be positive");
   if (const auto* linear = std::get_if<LinearSpring>(&scene.sphere_law); linear && has_shape(scene, true))
     demand(is_positive(linear->stiffness), "contact law of spheres", "stiffness must be positive");
   demand(scene.run.end_time >= 0 && scene.run.time_step >= 0, "run", "times must not be negative");
+  demand(scene.run.time_step > 0 || is_positive(scene.run.steps_per_contact), "run",
+         "steps per contact must be positive where no time step is given");
   const Real shortest = shortest_contact_time(scene);
   if (scene.run.time_step > shortest / kFewestSteps)
     throw InputError(
@@ -181,10 +238,13 @@ void check(const Scene& scene) {
 }
 
 Real shortest_contact_time(const Scene& scene) {
+  std::vector<Real> area;
+  for (const Shape& shape : scene.shapes) area.push_back(largest_contact_area(shape));
   Real shortest = std::numeric_limits<Real>::max();
   for (const Body& body : scene.bodies) {
     const Real effective_mass = mass_of(scene, body) / 2;  // against its like
-    shortest = std::min(shortest, std::numbers::pi * std::sqrt(effective_mass / contact_stiffness(scene, body)));
+    const Real stiffness = contact_stiffness(scene, body, area[body.shape]);
+    shortest = std::min(shortest, std::numbers::pi * std::sqrt(effective_mass / stiffness));
   }
   return shortest;
 }
@@ -205,7 +265,7 @@ Real stiffness_for_overlap(const Scene& scene, Real speed, Real largest_overlap)
   // Flat impact on a wall: 1/2 m v^2 = 1/2 (share k A) d^2.
   const Real share = std::holds_alternative<DepthPotential>(scene.polyhedral_law) ? 2 : 1;
   return mass_of(scene, *heaviest) * speed * speed /
-         (share * largest_contact_area(shape, heaviest->scale) * depth * depth);
+         (share * largest_contact_area(shape) * heaviest->scale * heaviest->scale * depth * depth);
 }
 
 }  // namespace dem_gpu

@@ -43,7 +43,8 @@ struct Accounts {
   double wall_load_time = 0;                             // since last taken [s]
   double initial_kinetic = 0;                            // [J]
   double initial_gravitational = 0;                      // [J]
-  double removed_energy = 0;                             // [J]
+  double removed_energy = 0;                             // all that left with removed bodies [J]
+  double removed_gravitational = 0;                      // its gravitational part [J]
   double largest_overlap = 0;                            // [-]
   double largest_rate = 0;                               // stiffness / effective mass [1/s2]
   std::int64_t list_rebuilds = 0;

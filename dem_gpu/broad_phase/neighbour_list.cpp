@@ -108,6 +108,7 @@ struct CarryHistory {
     to.torque_b[c] = from.torque_b[old];
     to.point[c] = from.point[old];
     to.depth[c] = from.depth[old];
+    to.is_truncated[c] = from.is_truncated[old];
     if (features.has_polyhedra) {
       const int length = to.cache_begin[c + 1] - to.cache_begin[c];
       for (int k = 0; k < length; ++k)

@@ -8,7 +8,7 @@ namespace dem_gpu {
 Real impact_restitution(Real exponent, Real damping_ratio) {
   // Mass, stiffness and impact speed are 1: d'' = -(d^n + c d'), c = 2 ratio sqrt(n d^(n-1)); 4th-order Runge-Kutta.
   const auto force = [&](Real depth, Real speed) {
-    if (depth <= 0) return Real(0);
+    if (depth < 0) return Real(0);  // at touch a linear dashpot pushes at once
     return std::pow(depth, exponent) + 2 * damping_ratio * std::sqrt(exponent * std::pow(depth, exponent - 1)) * speed;
   };
   const Real step = 1e-3;

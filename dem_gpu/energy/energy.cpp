@@ -59,9 +59,22 @@ void remove_bodies(const Model& model, State& state, const std::vector<int>& is_
     if (is_leaving[i]) active[i] = 0;
   assign(state.bodies.active, active);
   const BodyEnergy after = body_energy(model, state);
+  state.accounts.removed_gravitational += before.gravitational - after.gravitational;
   state.accounts.removed_energy += before.kinetic - after.kinetic + before.gravitational - after.gravitational +
                                    stored_in_contacts(state, is_leaving);
   state.list_is_stale = true;
+}
+
+void close_accounts_of_absent_walls(const Model& model, State& state) {
+  if (!model.features.has_ledger) return;
+  const auto keys = to_host(state.contacts.key);
+  const auto elastic = to_host(state.contacts.elastic_work);
+  const auto tangential = to_host(state.contacts.tangential_energy);
+  for (std::size_t c = 0; c < keys.size(); ++c) {
+    if (!is_wall_kind(key_kind(keys[c]))) continue;
+    const int wall = key_body_b(keys[c]);
+    if (!state.walls.records()[wall].is_present) state.accounts.wall_work[wall] -= elastic[c] + tangential[c];
+  }
 }
 
 EnergyLedger make_ledger(const Model& model, State& state) {
@@ -79,8 +92,9 @@ EnergyLedger make_ledger(const Model& model, State& state) {
   ledger.initial = accounts.initial_kinetic;
   for (std::size_t k = 0; k < model.classes.size(); ++k)
     ledger.dissipation.push_back({model.classes[k], accounts.loss_normal[k], accounts.loss_shear[k]});
-  // The energy of removed bodies counts gravity down to where they left.
-  const double released = -ledger.gravitational - std::min(0.0, accounts.removed_energy);
+  // What bodies lost by leaving is not what gravity gave them: wherever the origin lies, it counts down to where they
+  // left.
+  const double released = -ledger.gravitational - accounts.removed_gravitational;
   ledger.throughput = ledger.initial + std::max(0.0, released) + std::max(0.0, ledger.wall_work);
   return ledger;
 }

@@ -18,6 +18,9 @@ BodyEnergy body_energy(const Model& model, const State& state);
 /// Makes the marked bodies inactive and books their energy as removed; asks for a new neighbour list.
 void remove_bodies(const Model& model, State& state, const std::vector<int>& is_leaving);
 
+/// Elastic energy in contacts with walls that have just gone leaves with them, as work they took back.
+void close_accounts_of_absent_walls(const Model& model, State& state);
+
 EnergyLedger make_ledger(const Model& model, State& state);
 
 }  // namespace dem_gpu

@@ -98,7 +98,8 @@ std::vector<T> from_numbers(const std::vector<typename Stored<T>::Number>& numbe
   return values;
 }
 
-/// FNV-1a over what must be equal for a checkpoint to fit: sizes, masses, shapes, step, laws. (Fowler, Noll & Vo)
+/// FNV-1a over what must be equal for a checkpoint to fit: bodies, shapes, walls, laws, optional columns, step.
+/// (Fowler, Noll & Vo)
 std::int64_t fingerprint(const Model& model) {
   std::uint64_t hash = 14695981039346656037ull;
   const auto mix = [&](const void* bytes, std::size_t size) {
@@ -111,21 +112,42 @@ std::int64_t fingerprint(const Model& model) {
   mix(&model.time_step, sizeof(model.time_step));
   mix(&model.scene.gravity, sizeof(Vec3));
   mix_all(to_host(model.bodies.mass));
+  mix_all(to_host(model.bodies.inertia));
+  mix_all(to_host(model.bodies.bounding_radius));
   mix_all(to_host(model.bodies.shape));
+  mix_all(to_host(model.bodies.material));
   mix_all(to_host(model.shapes.vertices));
-  for (const Wall& wall : model.scene.walls) {
+  mix_all(to_host(model.shapes.depth_planes));
+  const WallSet at_start(model.scene, static_cast<int>(model.scene.shapes.size()));
+  for (std::size_t w = 0; w < model.scene.walls.size(); ++w) {
+    const Wall& wall = model.scene.walls[w];
     mix(wall.name.data(), wall.name.size());
+    mix(wall.contact_class.data(), wall.contact_class.size());
     mix(&wall.motion, sizeof(Motion));
+    const WallRecord& record = at_start.records()[w];
+    for (const Real value : {static_cast<Real>(record.kind), static_cast<Real>(wall.material), record.length,
+                             record.base_radius, record.top_radius, wall.removed_at.value_or(Real(-1))})
+      mix(&value, sizeof(value));
+    mix(&record.point, sizeof(Vec3));
+    mix(&record.direction, sizeof(Vec3));
   }
+  if (model.scene.outflow) mix(&*model.scene.outflow, sizeof(Outflow));
+  const ContactFeatures& features = model.features;
+  for (const bool has : {features.has_friction, features.has_ledger, features.has_walls, features.has_polyhedra})
+    mix(&has, sizeof(has));
+  if (model.scene.friction) mix(&*model.scene.friction, sizeof(Friction));
   const std::size_t law = model.scene.polyhedral_law.index();
   mix(&law, sizeof(law));
   const auto pairs = to_host(model.pairs);
   for (const PairProperties& pair : pairs) {
     mix(pair.damping.ratio, sizeof(pair.damping.ratio));
     mix(&pair.friction_coefficient, sizeof(Real));
+    mix(&pair.effective_modulus, sizeof(Real));
   }
-  if (const auto* depth = std::get_if<DepthPotential>(&model.scene.polyhedral_law))
-    mix(&depth->stiffness, sizeof(Real));
+  std::visit([&](const auto& chosen) { mix(&chosen.stiffness, sizeof(Real)); }, model.scene.polyhedral_law);
+  const std::size_t sphere_law = model.scene.sphere_law.index();
+  mix(&sphere_law, sizeof(sphere_law));
+  if (const auto* linear = std::get_if<LinearSpring>(&model.scene.sphere_law)) mix(&linear->stiffness, sizeof(Real));
   return static_cast<std::int64_t>(hash);
 }
 
@@ -165,6 +187,7 @@ void read_one(const std::filesystem::path& path, const Model& model, State& stat
   accounts.initial_kinetic = file.double_attribute("initial_kinetic");
   accounts.initial_gravitational = file.double_attribute("initial_gravitational");
   accounts.removed_energy = file.double_attribute("removed_energy");
+  accounts.removed_gravitational = file.double_attribute("removed_gravitational");
   accounts.largest_overlap = file.double_attribute("largest_overlap");
   accounts.largest_rate = file.double_attribute("largest_rate");
   accounts.list_rebuilds = file.integer_attribute("list_rebuilds");
@@ -187,6 +210,7 @@ void write_checkpoint_file(const std::filesystem::path& run_folder, const Model&
     file.write_attribute("initial_kinetic", accounts.initial_kinetic);
     file.write_attribute("initial_gravitational", accounts.initial_gravitational);
     file.write_attribute("removed_energy", accounts.removed_energy);
+    file.write_attribute("removed_gravitational", accounts.removed_gravitational);
     file.write_attribute("largest_overlap", accounts.largest_overlap);
     file.write_attribute("largest_rate", accounts.largest_rate);
     file.write_attribute("list_rebuilds", accounts.list_rebuilds);

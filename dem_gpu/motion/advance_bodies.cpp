@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dem_gpu/bodies/model_state.h"
 #include "dem_gpu/core/parallel.h"
+#include "dem_gpu/energy/energy.h"
 #include "dem_gpu/motion/motion_passes.h"
 #include "dem_gpu/motion/rigid_body.h"
 
@@ -60,7 +61,9 @@ class AdvanceWalls : public Pass {
  public:
   std::string name() const override { return "advance_walls"; }
   void run(const Model& model, State& state) override {
-    if (state.walls.move_to(state.time(model))) state.list_is_stale = true;
+    if (!state.walls.move_to(state.time(model))) return;
+    close_accounts_of_absent_walls(model, state);
+    state.list_is_stale = true;
   }
 };
 

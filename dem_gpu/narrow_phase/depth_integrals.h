@@ -14,6 +14,7 @@ namespace dem_gpu {
 struct PolygonDepth {
   Real depth = 0;     // integral of depth dA [m3]
   Vec3 depth_moment;  // integral of x depth dA [m4]
+  Vec3 descent;       // integral of minus the depth's gradient dA [m2]
   Real area = 0;      // [m2]
   Real largest = 0;   // largest depth at a corner [m]
 };
@@ -32,6 +33,7 @@ TALUS_HD inline void add_linear_depth(const Polygon& polygon, const HalfSpace& p
     const Real area = Real(0.5) * dot(cross(b - a, corner - a), normal);
     const Real total = depth_a + depth_b + depth_c;
     sum.area += area;
+    sum.descent += area * plane.normal;
     sum.depth += area * total / 3;
     sum.depth_moment += (area / 12) * (depth_a * a + depth_b * b + depth_c * corner + total * (a + b + corner));
     sum.largest = std::max(sum.largest, depth_c);
@@ -108,21 +110,42 @@ struct DepthIntegrals {
   static constexpr bool kNeedsInnerFaces = false;
   static constexpr bool kNeedsDepthPlanes = true;
 
-  Vec3 force;              // [m3]
-  Vec3 moment;             // [m4]
-  Real weight = 0;         // integral of depth dA over both surfaces [m3]
-  Vec3 weighted_point;     // integral of x depth dA [m4]
-  Vec3 area_a;             // vector area of a's surface in b [m2]
-  Vec3 area_b;             // vector area of b's surface in a [m2]
-  Real largest_depth = 0;  // [m]
+  Vec3 force;           // [m3]
+  Vec3 moment;          // [m4]
+  Real weight = 0;      // integral of depth dA over both surfaces [m3]
+  Vec3 weighted_point;  // integral of x depth dA [m4]
+
+  /// How the force changes when the other body moves, from the fields of one body: tangent = integral of minus gradient
+  /// (depth) times n^T dA, and what goes with it.
+  struct FieldSlope {
+    Mat3 tangent;            // [m2]
+    Vec3 area;               // vector area of the other body's surface inside [m2]
+    Real largest_depth = 0;  // below planes [m]
+
+    TALUS_HD FieldSlope() : tangent{{}, {}, {}} {}
+    TALUS_HD void add(const Vec3& descent, const Vec3& area_vector, const Vec3& direction, Real largest) {
+      tangent.column_x += direction.x * descent;
+      tangent.column_y += direction.y * descent;
+      tangent.column_z += direction.z * descent;
+      area += area_vector;
+      largest_depth = std::max(largest_depth, largest);
+    }
+    /// Change of the force along n over a shift along n [m2].
+    TALUS_HD Real along(const Vec3& n) const { return std::abs(dot(n, tangent * n)); }
+    /// Slope of the field along n, 1 for a face at right angles to it.
+    TALUS_HD Real steepness(const Vec3& n) const {
+      const Real projected = std::abs(dot(area, n));
+      return projected > 0 ? std::min(Real(1), along(n) / projected) : 0;
+    }
+  };
+  FieldSlope field_a, field_b;
 
   TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, const PartView& a,
                               const FrameChange& b_to_a) {
     const Vec3 normal = b_to_a.direction(plane_b.normal);
     const PolygonDepth sum = integrate_depth(polygon, a.depth_planes, a.depth_plane_count, normal);
     add(sum.depth, sum.depth_moment, normal);
-    area_b += sum.area * normal;
-    largest_depth = std::max(largest_depth, sum.largest);
+    field_a.add(sum.descent, sum.area * normal, normal, sum.largest);
   }
 
   TALUS_HD void add_surface_a(const Polygon& polygon, const HalfSpace& plane_a, const PartView& b,
@@ -132,8 +155,8 @@ struct DepthIntegrals {
     const Real s = b_to_a.scale, cube = s * s * s;
     const Vec3 moment_in_a = cube * (s * b_to_a.direction(sum.depth_moment) + sum.depth * b_to_a.translation);
     add(cube * sum.depth, moment_in_a, -plane_a.normal);
-    area_a += (s * s * sum.area) * plane_a.normal;
-    largest_depth = std::max(largest_depth, s * sum.largest);
+    field_b.add((s * s) * b_to_a.direction(sum.descent), (s * s * sum.area) * plane_a.normal, plane_a.normal,
+                s * sum.largest);
   }
 
   /// World-frame contact on body a; nothing if there is no overlap.
@@ -143,9 +166,20 @@ struct DepthIntegrals {
     contact.force = (law.stiffness * cube) * (a.rotation * force);
     contact.torque_a = (law.stiffness * cube * a.scale) * (a.rotation * moment);
     contact.point = a.position + a.rotation * ((a.scale / weight) * weighted_point);
-    contact.stiffness = law.stiffness * square * (norm(area_a) + norm(area_b));
-    contact.depth = a.scale * largest_depth;
-    return set_normal(contact);
+    if (!set_normal(contact)) return false;
+    const Vec3 n = unit_or(force, {0, 0, 1});
+    contact.stiffness = law.stiffness * square * (field_a.along(n) + field_b.along(n));
+    contact.depth = a.scale * depth_along(n);
+    return contact.stiffness > 0;
+  }
+
+  /// Depth of the overlap along the force: the depth below the planes of the steeper field over its steepness there.
+  TALUS_HD Real depth_along(const Vec3& n) const {
+    // A sharp corner's own field climbs slowly; below this the quotient says nothing.
+    constexpr Real kLeastSteepness = Real(0.25);
+    const Real a = field_a.steepness(n), b = field_b.steepness(n);
+    return a >= b ? field_a.largest_depth / std::max(a, kLeastSteepness)
+                  : field_b.largest_depth / std::max(b, kLeastSteepness);
   }
 
  private:

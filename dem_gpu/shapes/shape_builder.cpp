@@ -19,6 +19,9 @@ using catalog::Point;
 /// A vertex may stand this far in front of a face plane of its own part, in sizes of the part: rounding of stored
 /// shapes.
 constexpr Real kConvexityTolerance = 1e-6;
+/// A face corner may stand this far off its plane, and the face areas of a closed part may miss their balance by this
+/// share, in sizes of the part (squared).
+constexpr Real kClosureTolerance = 1e-6;
 /// Parts may share this share of the body's volume; more counts mass and contact twice.
 constexpr Real kLargestOverlap = 1e-3;
 /// Thinnest part, as volume over size cubed: below it the part is taken as flat.
@@ -47,6 +50,7 @@ void check_part(const std::string& name, std::size_t index, const ConvexPart& pa
   limit(part.vertices.size(), kMaxPartVertices, "vertices");
   limit(part.faces.size(), kMaxPartFaces, "faces");
   const Real size = size_of(part);
+  Vec3 area_sum;
   for (const ConvexFace& face : part.faces) {
     if (face.vertices.size() < 3) refuse(name, index, "a face with fewer than three corners");
     limit(face.vertices.size(), kMaxFaceCorners, "corners of one face");
@@ -55,13 +59,21 @@ void check_part(const std::string& name, std::size_t index, const ConvexPart& pa
     for (const int corner : face.vertices)
       if (corner < 0 || corner >= static_cast<int>(part.vertices.size()))
         refuse(name, index, "a face corner that is no vertex");
+    const auto corner = [&](std::size_t c) { return to_vec3(part.vertices[face.vertices[c]]); };
+    for (std::size_t c = 0; c < face.vertices.size(); ++c)
+      if (!(std::abs(dot(normal, corner(c)) - face.plane.offset) < kClosureTolerance * size))
+        refuse(name, index, "a face whose corners do not lie on its plane");
+    for (std::size_t c = 2; c < face.vertices.size(); ++c)
+      area_sum += Real(0.5) * cross(corner(c - 1) - corner(0), corner(c) - corner(0));
     for (const Point& vertex : part.vertices)
       if (!(dot(normal, to_vec3(vertex)) - face.plane.offset < kConvexityTolerance * size))
         refuse(name, index, "not convex");
   }
+  // The vector areas of a closed surface sum to zero.
+  if (!(norm(area_sum) < kClosureTolerance * size * size)) refuse(name, index, "open: faces are missing");
   const Real volume = catalog::volume_moments(catalog::triangulated(part)).volume;
   if (!(volume > kFlatness * size * size * size))
-    refuse(name, index, "flat, open or inside out (volume " + std::to_string(volume) + " m3)");
+    refuse(name, index, "flat or inside out (volume " + std::to_string(volume) + " m3)");
 }
 
 /// Rows of `axes` become x, y, z.

@@ -26,7 +26,8 @@ inline catalog::ConvexPart part_of(const std::vector<Vec3>& vertices, const std:
   for (const Vec3& vertex : vertices) part.vertices.push_back(to_point(vertex));
   for (const std::vector<int>& loop : loops) {
     const Vec3 a = vertices[loop[0]];
-    const Vec3 normal = cross(vertices[loop[1]] - a, vertices[loop[2]] - a);
+    Vec3 normal;  // of the whole loop: three corners may lie on a line
+    for (std::size_t c = 2; c < loop.size(); ++c) normal += cross(vertices[loop[c - 1]] - a, vertices[loop[c]] - a);
     const Vec3 unit = normal / norm(normal);
     part.faces.push_back({loop, {to_point(unit), dot(unit, a)}, catalog::FaceKind::outer});
   }

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <thread>
 
 #include "catalog/input_error.h"
 #include "tests/support/temporary_folder.h"
@@ -156,6 +158,18 @@ TEST(Hdf5File, RefusesWhatIsNotAskedFor) {
 TEST(Hdf5File, SaysWhereItCannotWrite) {
   const TemporaryFolder folder;
   EXPECT_THROW(Hdf5Writer(folder / "no/such/folder.h5", "sample", 1), std::runtime_error);
+}
+
+TEST(Hdf5File, BytesDoNotTellTheTimeOfDay) {
+  // Groups keep their times to the second: two files of a second apart.
+  const TemporaryFolder folder;
+  for (const char* name : {"early.h5", "late.h5"}) {
+    Hdf5Writer file(folder / name, "test", 1);
+    file.write("group/inner/values", std::vector<double>{1, 2, 3});
+    file.commit();
+    if (name == std::string("early.h5")) std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  }
+  EXPECT_EQ(read_bytes(folder / "early.h5"), read_bytes(folder / "late.h5"));
 }
 
 }  // namespace

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene does not need is not there: no pass, no column.
+#include <gtest/gtest.h>
+
+#include "dem_gpu/contacts/contact_columns.h"
+#include "dem_gpu/simulation.h"
+#include "tests/support/mixed_scene.h"
+
+namespace {
+
+using namespace test_support;
+using Names = std::vector<std::string>;
+
+Names passes(const dem_gpu::Scene& scene) { return dem_gpu::Simulation(scene).pass_names(); }
+
+dem_gpu::Scene spheres() {
+  dem_gpu::Scene scene = empty_scene(0.5, 0);
+  scene.shapes = {dem_gpu::sphere_shape("ball", 0.01), box_shape({0.02, 0.02, 0.02})};
+  scene.bodies = {body_at(0, {0, 0, 1}), body_at(0, {1, 0, 1})};
+  return scene;
+}
+
+TEST(Absent, PassesOfWhatIsNotThere) {
+  dem_gpu::Scene scene = spheres();
+  EXPECT_EQ(passes(scene), (Names{"advance_bodies", "neighbour_list", "sphere_contacts", "gather_forces"}));
+  scene.bodies.resize(1);
+  EXPECT_EQ(passes(scene), (Names{"advance_bodies", "neighbour_list", "gather_forces"}));
+  scene.walls = {floor_wall()};
+  EXPECT_EQ(passes(scene), (Names{"advance_bodies", "neighbour_list", "sphere_wall_contacts", "gather_forces"}));
+  scene.bodies[0].shape = 1;
+  EXPECT_EQ(passes(scene), (Names{"advance_bodies", "neighbour_list", "polyhedron_wall_contacts", "gather_forces"}));
+  scene.walls[0].geometry = dem_gpu::VolumeObject{dem_gpu::box_part({1, 1, 1})};
+  EXPECT_EQ(passes(scene), (Names{"advance_bodies", "neighbour_list", "polyhedron_object_contacts", "gather_forces"}));
+  scene.walls[0].motion.velocity = {0, 0, 1};
+  scene.outflow = dem_gpu::Outflow{};
+  EXPECT_EQ(passes(scene), (Names{"advance_bodies", "advance_walls", "neighbour_list", "polyhedron_object_contacts",
+                                  "gather_forces", "outflow"}));
+  EXPECT_EQ(passes(mixed_scene()).size(), 12u) << "everything";
+}
+
+TEST(Absent, ColumnsOfWhatIsNotThere) {
+  const auto lengths = [](const dem_gpu::ContactFeatures& features) {
+    dem_gpu::ContactColumns columns;
+    resize_columns(columns, 10, features);
+    return std::vector<std::size_t>{
+        columns.force.size(),        columns.cache_begin.size(),         columns.tangential_displacement.size(),
+        columns.elastic_work.size(), columns.last_friction_force.size(), columns.wall_impulse.size()};
+  };
+  using Lengths = std::vector<std::size_t>;
+  EXPECT_EQ(lengths({}), (Lengths{10, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({true, false, false, false}), (Lengths{10, 0, 10, 0, 0, 0}));
+  EXPECT_EQ(lengths({false, true, false, false}), (Lengths{10, 0, 0, 10, 10, 0}));
+  EXPECT_EQ(lengths({false, false, true, false}), (Lengths{10, 0, 0, 0, 0, 10}));
+  EXPECT_EQ(lengths({false, false, false, true}), (Lengths{10, 11, 0, 0, 0, 0}));
+}
+
+TEST(Absent, MotionIsTheSameWithoutTheLedger) {
+  dem_gpu::Scene scene = mixed_scene();
+  dem_gpu::Simulation with(scene);
+  scene.energy_ledger = false;
+  dem_gpu::Simulation without(scene);
+  with.advance(1500);
+  without.advance(1500);
+  EXPECT_EQ(with.snapshot().position, without.snapshot().position);
+  EXPECT_EQ(without.ledger().throughput, 0);
+  EXPECT_EQ(without.ledger().kinetic, 0);
+}
+
+}  // namespace
