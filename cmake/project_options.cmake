@@ -15,6 +15,8 @@ if(TALUS_WARNINGS_AS_ERRORS)
   target_compile_options(project_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror>)
 endif()
 if(TALUS_SANITIZE)
-  target_compile_options(project_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=address,undefined -fno-omit-frame-pointer>)
+  target_compile_options(project_options INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=address,undefined -fno-omit-frame-pointer
+    # Thrust forms references to the first element of empty columns.
+    -fno-sanitize=null -fno-sanitize-recover=all>)
   target_link_options(project_options INTERFACE -fsanitize=address,undefined)
 endif()

@@ -12,8 +12,7 @@ namespace dem_gpu {
 /// Integrals of a wall's depth over the part of a body's outer surface inside the wall, world frame about `centre`:
 /// force direction = - integral of depth n dA. The wall's field alone carries the contact (U = 2 k integral of the
 /// wall's depth over the overlap), so a flat face meets a wall as it meets another flat face. Planes are exact; on
-/// curved walls each face is cut into triangles about its centre on which the depth is taken as linear (error of second
-/// order in face size over wall radius).
+/// curved walls each face is cut into pieces on which the depth is taken as linear (see kChordError).
 struct WallIntegrals {
   Vec3 force;           // [m3]
   Vec3 moment;          // [m4]
@@ -86,41 +85,70 @@ struct WallIntegrals {
   }
 };
 
+/// Chord error that a piece of a face may have against a curved wall, as a share of the part's radius.
+constexpr Real kChordError = Real(0.002);
+constexpr int kMostPieces = 8;  // of a triangle's edge
+
+/// Adds the triangle a, b, c of a flat face (relative to the body's centre) in pieces small enough for the wall's depth
+/// to be linear on each: a chord of length h leaves a circle of radius R by h^2 / (8 R).
+template <class Sampler>
+TALUS_HD void add_in_pieces(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal, Real longest_piece,
+                            const Sampler& sample, WallIntegrals& integrals) {
+  const Real longest = std::sqrt(std::max(norm_squared(b - a), std::max(norm_squared(c - a), norm_squared(c - b))));
+  const int pieces =
+      longest < kMostPieces * longest_piece ? 1 + static_cast<int>(longest / longest_piece) : kMostPieces;
+  const Vec3 along_b = (Real(1) / pieces) * (b - a), along_c = (Real(1) / pieces) * (c - a);
+  const auto corner = [&](int row, int column) {
+    return sample(a + static_cast<Real>(row) * along_b + static_cast<Real>(column) * along_c);
+  };
+  for (int row = 0; row < pieces; ++row) {
+    WallIntegrals::Sample low = corner(row, 0), high = corner(row + 1, 0);
+    for (int column = 0; column < pieces - row; ++column) {
+      const WallIntegrals::Sample next_low = corner(row, column + 1);
+      integrals.add_triangle(low, high, next_low, normal);
+      if (column + 1 < pieces - row) {
+        const WallIntegrals::Sample next_high = corner(row + 1, column + 1);
+        integrals.add_triangle(high, next_high, next_low, normal);
+        high = next_high;
+      }
+      low = next_low;
+    }
+  }
+}
+
 /// Adds one convex part of a body at `pose` to the wall's integrals.
 TALUS_HD inline void integrate_part_in_wall(const PartView& part, const Pose& pose, const WallRecord& wall,
                                             WallIntegrals& integrals) {
   const Vec3 centre = pose.scale * (pose.rotation * part.range.centre) + pose.position;
-  if (wall_field(wall, centre).depth + pose.scale * part.range.radius <= 0) return;
-  const auto sample = [&](const Vec3& x) {
-    const Vec3 relative = pose.scale * (pose.rotation * x);
+  const Real radius = pose.scale * part.range.radius;
+  if (wall_field(wall, centre).depth + radius <= 0) return;
+  const auto sample = [&](const Vec3& relative) {
     return WallIntegrals::Sample{relative, wall_field(wall, pose.position + relative)};
   };
   ScratchArray<WallIntegrals::Sample, kMaxPartVertices> vertices;
   bool touches = false;
   for (int v = 0; v < part.range.vertex_count; ++v) {
-    vertices[v] = sample(part.vertices[v]);
+    vertices[v] = sample(pose.scale * (pose.rotation * part.vertices[v]));
     touches |= vertices[v].field.depth > 0;
   }
   if (!touches) return;
   const bool is_curved = wall.kind == WallKind::cylinder || wall.kind == WallKind::cone;
+  const Real longest_piece =
+      is_curved ? std::sqrt(8 * kChordError * radius * (axial_position(wall, centre).radius + radius)) : Real(0);
   for (int f = 0; f < part.range.outer_face_count; ++f) {
     const FaceCorners face = part.faces[f];
     const std::uint8_t* corner = part.corners + face.first;
     bool face_touches = false;
-    Vec3 middle;
-    for (int c = 0; c < face.count; ++c) {
-      face_touches |= vertices[corner[c]].field.depth > 0;
-      middle += part.vertices[corner[c]];
-    }
+    for (int c = 0; c < face.count; ++c) face_touches |= vertices[corner[c]].field.depth > 0;
     if (!face_touches) continue;
     const Vec3 normal = pose.rotation * part.planes[f].normal;
-    if (is_curved) {
-      const WallIntegrals::Sample centre_sample = sample((Real(1) / face.count) * middle);
-      for (int c = 0; c < face.count; ++c)
-        integrals.add_triangle(centre_sample, vertices[corner[c]], vertices[corner[(c + 1) % face.count]], normal);
-    } else {
-      for (int c = 2; c < face.count; ++c)
-        integrals.add_triangle(vertices[corner[0]], vertices[corner[c - 1]], vertices[corner[c]], normal);
+    for (int c = 2; c < face.count; ++c) {
+      const WallIntegrals::Sample &first = vertices[corner[0]], &second = vertices[corner[c - 1]],
+                                  &third = vertices[corner[c]];
+      if (is_curved)
+        add_in_pieces(first.position, second.position, third.position, normal, longest_piece, sample, integrals);
+      else
+        integrals.add_triangle(first, second, third, normal);
     }
   }
 }

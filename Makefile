@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: Apache-2.0
+# The whole of Talus by make. `make demo` and `make test` do everything on a bare Debian 12.
+
+BUILD ?= build
+JOBS ?= $(shell nproc)
+CUDA_ARCHITECTURES ?= 90
+NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
+STAGES := talus talus-digitize talus-decompose talus-catalog talus-simulate talus-post
+
+.PHONY: help demo test build install engine test-engines cuda gpu-check format check-format clean
+
+help:  ## This list
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
+
+demo: install $(BUILD)/CMakeCache.txt  ## From scans to a hopper and a mill; SCANS=folder UNIT=m for your own
+	cmake --build $(BUILD) --parallel $(JOBS) --target $(STAGES)
+	BUILD=$(BUILD) SCANS="$(SCANS)" UNIT="$(UNIT)" DEMO="$(DEMO)" workflows/demo.sh
+
+test: install build cuda  ## Build everything, run every test; with nvcc also compile the CUDA engine
+	ctest --test-dir $(BUILD) --output-on-failure --parallel $(JOBS)
+
+build: install $(BUILD)/CMakeCache.txt  ## Build everything
+	cmake --build $(BUILD) --parallel $(JOBS)
+
+install:  ## Install what Talus needs (Debian 12; root or sudo)
+	@workflows/install_dependencies.sh
+
+$(BUILD)/CMakeCache.txt:
+	cmake -S . -B $(BUILD) -G Ninja -DTALUS_WARNINGS_AS_ERRORS=$(if $(CI),ON,OFF)
+
+engine: install  ## The engine alone: no PCL, CGAL, assimp or VTK
+	cmake --preset dem-cpu
+	cmake --build --preset dem-cpu --parallel $(JOBS)
+
+test-engines: engine  ## Engine tests with OpenMP, and serial under the address and undefined-behaviour sanitizers
+	ctest --test-dir build-dem-cpu --output-on-failure -L 'unit|property|validation|backend|workflow'
+	cmake --preset asan
+	cmake --build --preset asan --parallel $(JOBS)
+	ctest --test-dir build-asan --output-on-failure -L 'unit|property|backend'
+
+ifeq ($(NVCC),)
+cuda:
+	@echo 'cuda: no nvcc here, the CUDA engine is not compiled'
+else
+cuda: install  ## Compile the CUDA engine and its talus-simulate (where nvcc is)
+	PATH="$(dir $(NVCC)):$$PATH" cmake --preset dem-cuda -DCMAKE_CUDA_ARCHITECTURES="$(CUDA_ARCHITECTURES)"
+	PATH="$(dir $(NVCC)):$$PATH" cmake --build --preset dem-cuda --parallel $(JOBS) --target talus-simulate
+endif
+
+gpu-check: install  ## On a GPU machine: build the CUDA engine with its tests and run them
+	cmake --preset dem-cuda -DCMAKE_CUDA_ARCHITECTURES=native
+	cmake --build --preset dem-cuda --parallel $(JOBS)
+	ctest --test-dir build-dem-cuda --output-on-failure -L 'unit|property|validation|backend'
+
+format:  ## Format every source file
+	git ls-files '*.cpp' '*.h' | xargs clang-format -i
+
+check-format:  ## Fail if a source file is not formatted
+	git ls-files '*.cpp' '*.h' | xargs clang-format --dry-run -Werror
+
+clean:  ## Remove the build folders (not the demo's results)
+	rm -rf $(BUILD) build-dem-cpu build-dem-cuda build-asan
