@@ -174,7 +174,7 @@ Real shortest_contact_time(const Scene& scene);
 /// The time step used: run.time_step, or shortest_contact_time / steps_per_contact [s].
 Real time_step(const Scene& scene);
 
-/// Stiffness per area of the depth potential [N/m3] for which the heaviest body's largest flat face, striking a wall at
+/// Stiffness of the scene's polyhedral law [N/m3] for which the heaviest body's largest flat face, striking a wall at
 /// `speed`, sinks in by `largest_overlap` (share of the body's equivalent diameter).
 Real stiffness_for_overlap(const Scene& scene, Real speed, Real largest_overlap);
 

@@ -19,6 +19,9 @@ using catalog::InputError;
 /// Least contact area assumed for a body, over its equivalent diameter squared: a rounded body pressed in by 5 % of its
 /// diameter meets a plane over pi * 0.05 of it.
 constexpr Real kLeastContactArea = 0.16;
+/// Share of a grain's mass that a sphere meets at a corner, where the grain gives way by turning: 1 / (1 + r^2 / k^2)
+/// with r half the diameter and k the radius of gyration of a ball, rounded down.
+constexpr Real kEccentricShare = 0.28;
 /// Longest time step accepted, as a share of the shortest contact: beyond it restitution is off by 1 % and more.
 constexpr Real kFewestSteps = 5;
 
@@ -102,6 +105,15 @@ Real contact_stiffness(const Scene& scene, const Body& body, Real area) {
   const Shape& shape = scene.shapes[body.shape];
   if (std::holds_alternative<SphereShape>(shape.geometry)) return sphere_stiffness(scene, body);
   return stiffness_per_area(scene.polyhedral_law) * area * body.scale * body.scale;
+}
+
+/// Stiffest sphere of the scene [N/m]; 0 without spheres.
+Real largest_sphere_stiffness(const Scene& scene) {
+  Real stiffness = 0;
+  for (const Body& body : scene.bodies)
+    if (std::holds_alternative<SphereShape>(scene.shapes[body.shape].geometry))
+      stiffness = std::max(stiffness, sphere_stiffness(scene, body));
+  return stiffness;
 }
 
 struct CheckWall {
@@ -218,8 +230,8 @@ void check_run(const Scene& scene) {
   if (const auto* linear = std::get_if<LinearSpring>(&scene.sphere_law); linear && has_shape(scene, true))
     demand(is_positive(linear->stiffness), "contact law of spheres", "stiffness must be positive");
   demand(scene.run.end_time >= 0 && scene.run.time_step >= 0, "run", "times must not be negative");
-  demand(scene.run.time_step > 0 || is_positive(scene.run.steps_per_contact), "run",
-         "steps per contact must be positive where no time step is given");
+  demand(scene.run.time_step > 0 || scene.run.steps_per_contact >= kFewestSteps, "run",
+         "steps per contact must be at least 5 where no time step is given");
   const Real shortest = shortest_contact_time(scene);
   if (scene.run.time_step > shortest / kFewestSteps)
     throw InputError(
@@ -238,12 +250,16 @@ void check(const Scene& scene) {
 }
 
 Real shortest_contact_time(const Scene& scene) {
+  const Real against_sphere = largest_sphere_stiffness(scene);
   std::vector<Real> area;
   for (const Shape& shape : scene.shapes) area.push_back(largest_contact_area(shape));
   Real shortest = std::numeric_limits<Real>::max();
   for (const Body& body : scene.bodies) {
     const Real effective_mass = mass_of(scene, body) / 2;  // against its like
     const Real stiffness = contact_stiffness(scene, body, area[body.shape]);
+    if (std::holds_alternative<PolyhedralShape>(scene.shapes[body.shape].geometry) && against_sphere > 0)
+      shortest =
+          std::min(shortest, std::numbers::pi * std::sqrt(kEccentricShare * mass_of(scene, body) / against_sphere));
     shortest = std::min(shortest, std::numbers::pi * std::sqrt(effective_mass / stiffness));
   }
   return shortest;

@@ -13,7 +13,7 @@
 namespace shape_pipeline {
 namespace {
 
-using talus_test_support::moved;
+using test_support::moved;
 
 class RandomRock : public testing::TestWithParam<int> {
  protected:

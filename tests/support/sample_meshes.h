@@ -10,7 +10,7 @@
 #include "catalog/mass_properties.h"
 #include "catalog/triangle_mesh.h"
 
-namespace talus_test_support {
+namespace test_support {
 
 /// Regular tetrahedron of edge `a` about the origin, outward.
 inline catalog::TriangleMesh tetrahedron(double a) {
@@ -84,4 +84,4 @@ inline void write_text(const std::filesystem::path& path, const std::string& tex
   std::ofstream(path, std::ios::binary) << text;
 }
 
-}  // namespace talus_test_support
+}  // namespace test_support

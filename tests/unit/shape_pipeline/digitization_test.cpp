@@ -20,7 +20,7 @@
 namespace shape_pipeline {
 namespace {
 
-using namespace talus_test_support;
+using namespace test_support;
 
 TEST(PrincipalFrame, OfATurnedBoxHasTheLongAxisAlongX) {
   const catalog::ShapeRecord shape = in_principal_frame(moved(box_mesh({0, 0, 0}, {1, 3, 2}), 0.01, {4, 5, 6}));

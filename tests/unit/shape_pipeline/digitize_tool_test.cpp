@@ -16,7 +16,7 @@
 
 namespace {
 
-using namespace talus_test_support;
+using namespace test_support;
 
 struct ToolRun {
   int status = -1;

@@ -17,7 +17,7 @@
 namespace shape_pipeline {
 namespace {
 
-using namespace talus_test_support;
+using namespace test_support;
 
 const RepairOptions kNoWrap{0, Wrapping::never};
 

@@ -22,7 +22,7 @@
 namespace shape_pipeline {
 namespace {
 
-using namespace talus_test_support;
+using namespace test_support;
 
 std::string number(double value) {
   char text[40];

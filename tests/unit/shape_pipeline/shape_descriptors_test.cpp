@@ -12,7 +12,7 @@
 namespace shape_pipeline {
 namespace {
 
-using namespace talus_test_support;
+using namespace test_support;
 constexpr double pi = std::numbers::pi;
 
 double wadell(double volume, double area) { return std::cbrt(pi) * std::pow(6 * volume, 2.0 / 3) / area; }

@@ -18,7 +18,7 @@
 namespace shape_pipeline {
 namespace {
 
-using namespace talus_test_support;
+using namespace test_support;
 
 const catalog::Check* find_check(const std::vector<catalog::Check>& checks, const std::string& name) {
   const auto check = std::find_if(checks.begin(), checks.end(), [&](const auto& c) { return c.name == name; });
