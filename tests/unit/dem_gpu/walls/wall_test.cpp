@@ -139,7 +139,7 @@ TEST(WallIntegrals, CurvedWallHoldsItsChordError) {
   };
   // Pieces whose chord leaves the wall by at most kChordError radii: two thirds of that in the mean, over a depth of
   // 0.05.
-  const Real bound = kChordError * std::sqrt(Real(0.75)) * 2 / 3 / 0.05;
+  const Real bound = dem_gpu::kChordError * std::sqrt(Real(0.75)) * 2 / 3 / 0.05;
   for (const Real radius : {2, 5, 20, 100}) EXPECT_LT(error_at(radius), bound) << radius;
 }
 
