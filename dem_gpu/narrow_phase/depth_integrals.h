@@ -105,9 +105,11 @@ TALUS_HD inline PolygonDepth integrate_depth(const Polygon& polygon, const HalfS
 
 /// What the depth potential needs of a contact, in a's unscaled body frame about a's centre:
 ///   force = integral over (b's surface in a) of depth_a n_b dA - integral over (a's surface in b) of depth_b n_a dA
-/// and the moment likewise with x cross n. Only outer faces enter.
+/// and the moment likewise with x cross n. All faces of the parts enter: the two sides of a cut cancel where they meet,
+/// and where they do not (a ledge) the bare strip counts, so the force is the gradient of the parts' energy whatever
+/// the cut. Only outer faces weigh in the contact point and the depth.
 struct DepthIntegrals {
-  static constexpr bool kNeedsInnerFaces = false;
+  static constexpr bool kNeedsInnerFaces = true;
   static constexpr bool kNeedsDepthPlanes = true;
 
   Vec3 force;           // [m3]
@@ -140,23 +142,23 @@ struct DepthIntegrals {
   };
   FieldSlope field_a, field_b;
 
-  TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, const PartView& a,
+  TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, bool is_outer, const PartView& a,
                               const FrameChange& b_to_a) {
     const Vec3 normal = b_to_a.direction(plane_b.normal);
     const PolygonDepth sum = integrate_depth(polygon, a.depth_planes, a.depth_plane_count, normal);
-    add(sum.depth, sum.depth_moment, normal);
-    field_a.add(sum.descent, sum.area * normal, normal, sum.largest);
+    add(sum.depth, sum.depth_moment, normal, is_outer);
+    field_a.add(sum.descent, sum.area * normal, normal, is_outer ? sum.largest : 0);
   }
 
-  TALUS_HD void add_surface_a(const Polygon& polygon, const HalfSpace& plane_a, const PartView& b,
+  TALUS_HD void add_surface_a(const Polygon& polygon, const HalfSpace& plane_a, bool is_outer, const PartView& b,
                               const FrameChange& b_to_a) {
     const Vec3 normal_in_b = transpose_times(b_to_a.rotation, plane_a.normal);
     const PolygonDepth sum = integrate_depth(polygon, b.depth_planes, b.depth_plane_count, normal_in_b);
     const Real s = b_to_a.scale, cube = s * s * s;
     const Vec3 moment_in_a = cube * (s * b_to_a.direction(sum.depth_moment) + sum.depth * b_to_a.translation);
-    add(cube * sum.depth, moment_in_a, -plane_a.normal);
+    add(cube * sum.depth, moment_in_a, -plane_a.normal, is_outer);
     field_b.add((s * s) * b_to_a.direction(sum.descent), (s * s * sum.area) * plane_a.normal, plane_a.normal,
-                s * sum.largest);
+                is_outer ? s * sum.largest : 0);
   }
 
   /// World-frame contact on body a; nothing if there is no overlap.
@@ -183,9 +185,10 @@ struct DepthIntegrals {
   }
 
  private:
-  TALUS_HD void add(Real depth, const Vec3& depth_moment, const Vec3& direction) {
+  TALUS_HD void add(Real depth, const Vec3& depth_moment, const Vec3& direction, bool is_outer) {
     force += depth * direction;
     moment += cross(depth_moment, direction);
+    if (!is_outer) return;
     weight += depth;
     weighted_point += depth_moment;
   }

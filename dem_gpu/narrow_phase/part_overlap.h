@@ -135,8 +135,8 @@ enum class OverlapStatus : std::uint8_t { separated, overlapping, polygon_trunca
 /// frame changes; `separating` is the pair's cache. `Integrals` provides:
 ///   kNeedsDepthPlanes                           whether depth fields are integrated
 ///   kNeedsInnerFaces                            whether cut faces are visited too
-///   add_surface_b(polygon, plane_b, part_a, b_to_a)   a piece of b's surface inside a, polygon in a's frame
-///   add_surface_a(polygon, plane_a, part_b, b_to_a)   a piece of a's surface inside b, polygon in b's frame
+///   add_surface_b(polygon, plane_b, is_outer, part_a, b_to_a)   a piece of b's surface inside a, polygon in a's frame
+///   add_surface_a(polygon, plane_a, is_outer, part_b, b_to_a)   a piece of a's surface inside b, polygon in b's frame
 template <class Integrals>
 TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, const FrameChange& b_to_a,
                                          const FrameChange& a_to_b, SeparatingPlane& separating, Integrals& integrals) {
@@ -175,11 +175,13 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
   const int faces_b = Integrals::kNeedsInnerFaces ? b.range.face_count : b.range.outer_face_count;
   const int faces_a = Integrals::kNeedsInnerFaces ? a.range.face_count : a.range.outer_face_count;
   const bool b_whole = visit_surface_inside(
-      b, faces_b, a, vertices_b, sides_b, {sides_b, tolerance_a, true},
-      [&](Polygon& polygon, int face) { integrals.add_surface_b(polygon, b.planes[face], solid_a, b_to_a); });
+      b, faces_b, a, vertices_b, sides_b, {sides_b, tolerance_a, true}, [&](Polygon& polygon, int face) {
+        integrals.add_surface_b(polygon, b.planes[face], face < b.range.outer_face_count, solid_a, b_to_a);
+      });
   const bool a_whole = visit_surface_inside(
-      a, faces_a, b, vertices_a, sides_a, {sides_a, tolerance_b, false},
-      [&](Polygon& polygon, int face) { integrals.add_surface_a(polygon, a.planes[face], solid_b, b_to_a); });
+      a, faces_a, b, vertices_a, sides_a, {sides_a, tolerance_b, false}, [&](Polygon& polygon, int face) {
+        integrals.add_surface_a(polygon, a.planes[face], face < a.range.outer_face_count, solid_b, b_to_a);
+      });
   return a_whole && b_whole ? OverlapStatus::overlapping : OverlapStatus::polygon_truncated;
 }
 

@@ -22,12 +22,13 @@ struct VolumeIntegrals {
   Vec3 reference;     // a point of the overlap [m]
   bool has_reference = false;
 
-  TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, const PartView&,
+  TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, bool /*is_outer*/, const PartView&,
                               const FrameChange& b_to_a) {
     add_volume(polygon, b_to_a.direction(plane_b.normal));
   }
 
-  TALUS_HD void add_surface_a(Polygon& polygon, const HalfSpace& plane_a, const PartView&, const FrameChange& b_to_a) {
+  TALUS_HD void add_surface_a(Polygon& polygon, const HalfSpace& plane_a, bool /*is_outer*/, const PartView&,
+                              const FrameChange& b_to_a) {
     for (int c = 0; c < polygon.count; ++c) polygon.corner[c] = b_to_a.point(polygon.corner[c]);
     add_volume(polygon, plane_a.normal);
     const Vec3 a = polygon.corner[0];

@@ -9,7 +9,8 @@
 
 namespace dem_gpu {
 
-/// Integrals of a wall's depth over the part of a body's outer surface inside the wall, world frame about `centre`:
+/// Integrals of a wall's depth over the part of a body's surface inside the wall (all faces of its parts, see
+/// DepthIntegrals), world frame about `centre`:
 /// force direction = - integral of depth n dA. The wall's field alone carries the contact (U = 2 k integral of the
 /// wall's depth over the overlap), so a flat face meets a wall as it meets another flat face. Planes are exact; on
 /// curved walls each face is cut into pieces on which the depth is taken as linear (see kChordError).
@@ -27,7 +28,7 @@ struct WallIntegrals {
     WallField field;
   };
 
-  TALUS_HD void add_triangle(const Sample& a, const Sample& b, const Sample& c, const Vec3& normal) {
+  TALUS_HD void add_triangle(const Sample& a, const Sample& b, const Sample& c, const Vec3& normal, bool is_outer) {
     constexpr int kMaxCorners = 6;  // a triangle cut by three fields
     Sample buffer[2][kMaxCorners] = {{a, b, c}};
     int count = 3, current = 0;
@@ -46,7 +47,8 @@ struct WallIntegrals {
       count = kept;
       current = 1 - current;
     }
-    for (int i = 2; i < count; ++i) add_linear(buffer[current][0], buffer[current][i - 1], buffer[current][i], normal);
+    for (int i = 2; i < count; ++i)
+      add_linear(buffer[current][0], buffer[current][i - 1], buffer[current][i], normal, is_outer);
   }
 
   /// `share` of 2 k: 1 for the depth potential.
@@ -70,7 +72,7 @@ struct WallIntegrals {
             {mix(a.field.depth, b.field.depth), mix(a.field.from_base, b.field.from_base),
              mix(a.field.from_top, b.field.from_top)}};
   }
-  TALUS_HD void add_linear(const Sample& a, const Sample& b, const Sample& c, const Vec3& normal) {
+  TALUS_HD void add_linear(const Sample& a, const Sample& b, const Sample& c, const Vec3& normal, bool is_outer) {
     const Real triangle = Real(0.5) * dot(cross(b.position - a.position, c.position - a.position), normal);
     const Real da = a.field.depth, db = b.field.depth, dc = c.field.depth, total = da + db + dc;
     const Real depth = triangle * total / 3;
@@ -78,9 +80,10 @@ struct WallIntegrals {
                                                  total * (a.position + b.position + c.position));
     force -= depth * normal;
     moment -= cross(depth_moment, normal);
+    area += triangle * normal;
+    if (!is_outer) return;
     weight += depth;
     weighted_point += depth_moment;
-    area += triangle * normal;
     largest_depth = std::max(largest_depth, std::max(da, std::max(db, dc)));
   }
 };
@@ -92,8 +95,8 @@ constexpr int kMostPieces = 8;  // of a triangle's edge
 /// Adds the triangle a, b, c of a flat face (relative to the body's centre) in pieces small enough for the wall's depth
 /// to be linear on each: a chord of length h leaves a circle of radius R by h^2 / (8 R).
 template <class Sampler>
-TALUS_HD void add_in_pieces(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal, Real longest_piece,
-                            const Sampler& sample, WallIntegrals& integrals) {
+TALUS_HD void add_in_pieces(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal, bool is_outer,
+                            Real longest_piece, const Sampler& sample, WallIntegrals& integrals) {
   const Real longest = std::sqrt(std::max(norm_squared(b - a), std::max(norm_squared(c - a), norm_squared(c - b))));
   const int pieces =
       longest < kMostPieces * longest_piece ? 1 + static_cast<int>(longest / longest_piece) : kMostPieces;
@@ -105,10 +108,10 @@ TALUS_HD void add_in_pieces(const Vec3& a, const Vec3& b, const Vec3& c, const V
     WallIntegrals::Sample low = corner(row, 0), high = corner(row + 1, 0);
     for (int column = 0; column < pieces - row; ++column) {
       const WallIntegrals::Sample next_low = corner(row, column + 1);
-      integrals.add_triangle(low, high, next_low, normal);
+      integrals.add_triangle(low, high, next_low, normal, is_outer);
       if (column + 1 < pieces - row) {
         const WallIntegrals::Sample next_high = corner(row + 1, column + 1);
-        integrals.add_triangle(high, next_high, next_low, normal);
+        integrals.add_triangle(high, next_high, next_low, normal, is_outer);
         high = next_high;
       }
       low = next_low;
@@ -135,7 +138,8 @@ TALUS_HD inline void integrate_part_in_wall(const PartView& part, const Pose& po
   const bool is_curved = wall.kind == WallKind::cylinder || wall.kind == WallKind::cone;
   const Real longest_piece =
       is_curved ? std::sqrt(8 * kChordError * radius * (axial_position(wall, centre).radius + radius)) : Real(0);
-  for (int f = 0; f < part.range.outer_face_count; ++f) {
+  for (int f = 0; f < part.range.face_count; ++f) {
+    const bool is_outer = f < part.range.outer_face_count;
     const FaceCorners face = part.faces[f];
     const std::uint8_t* corner = part.corners + face.first;
     bool face_touches = false;
@@ -146,9 +150,10 @@ TALUS_HD inline void integrate_part_in_wall(const PartView& part, const Pose& po
       const WallIntegrals::Sample &first = vertices[corner[0]], &second = vertices[corner[c - 1]],
                                   &third = vertices[corner[c]];
       if (is_curved)
-        add_in_pieces(first.position, second.position, third.position, normal, longest_piece, sample, integrals);
+        add_in_pieces(first.position, second.position, third.position, normal, is_outer, longest_piece, sample,
+                      integrals);
       else
-        integrals.add_triangle(first, second, third, normal);
+        integrals.add_triangle(first, second, third, normal, is_outer);
     }
   }
 }
