@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // talus-digitize as a user runs it: exit statuses, batches, repetition.
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -113,6 +114,23 @@ TEST(DigitizeTool, AShapeThatIsThereIsRejectedNoLonger) {
   EXPECT_NE(again.output.find("skipped"), std::string::npos) << again.output;
   const catalog::ShapeCatalog catalog(folder / "ore.talus", catalog::ShapeCatalog::Access::read_only);
   EXPECT_TRUE(catalog.rejected().empty());
+}
+
+TEST(DigitizeTool, ALockedCatalogueIsNotTheScansFault) {
+  const TemporaryFolder folder;
+  shape_pipeline::write_stl(folder / "a.stl", box_mesh({0, 0, 0}, {1, 2, 3}));
+  shape_pipeline::write_stl(folder / "b.stl", box_mesh({0, 0, 0}, {1, 1, 1}));
+  ASSERT_EQ(digitize(folder, "a.stl --into ore.talus --unit mm").status, 0);
+  sqlite3* writer = nullptr;
+  ASSERT_EQ(sqlite3_open((folder / "ore.talus").string().c_str(), &writer), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(writer, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
+  const ToolRun locked = digitize(folder, "a.stl b.stl --into ore.talus --unit mm --json");
+  sqlite3_close(writer);
+  EXPECT_EQ(locked.status, 3);
+  EXPECT_NE(locked.errors.find("still locked"), std::string::npos) << locked.errors;
+  EXPECT_EQ(locked.errors.find("rejected"), std::string::npos) << locked.errors;
+  EXPECT_NE(locked.output.find("\"a\",\"status\":\"skipped\""), std::string::npos) << locked.output;
+  EXPECT_EQ(locked.output.find("\"b\""), std::string::npos) << locked.output;
 }
 
 TEST(DigitizeTool, VirtualScansToTheSameCatalogueTwice) {
