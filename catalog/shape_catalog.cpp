@@ -55,6 +55,14 @@ void ShapeCatalog::store_rejected(const RejectedInput& rejected) {
   transaction.commit();
 }
 
+void ShapeCatalog::forget_rejected(const std::string& name) {
+  Statement row(connection_->database, "SELECT 1 FROM rejected WHERE name = ?");
+  if (!row.bind(name).step()) return;
+  Transaction transaction(connection_->database);
+  Statement(connection_->database, "DELETE FROM rejected WHERE name = ?").bind(name).run();
+  transaction.commit();
+}
+
 void ShapeCatalog::store_levels(ShapeId id, const std::vector<LevelOfDetail>& levels) {
   Transaction transaction(connection_->database);
   Statement shape(connection_->database, "SELECT 1 FROM shapes WHERE id = ?");

@@ -56,6 +56,7 @@ class ShapeCatalog {
   /// Stores or replaces the shape of that name; replacing drops its levels of detail.
   ShapeId store_shape(const ShapeRecord& shape);
   void store_rejected(const RejectedInput& rejected);
+  void forget_rejected(const std::string& name);  // no write if there is no such row
   /// Stores or replaces the levels with the same (parts_asked, vertex_cap), all in one transaction.
   void store_levels(ShapeId id, const std::vector<LevelOfDetail>& levels);
 

@@ -22,12 +22,13 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr double kWeldDistance = 1e-6;       // of the diagonal: single-precision files differ by less
-constexpr int kElementLimit = 4000;          // surface elements of the winding number: 1 % at half a second
-constexpr double kLeastHullRatio = 0.2;      // a closed mesh may be a thin or hollow-cheeked particle
-constexpr double kLargestRecut = 0.005;      // relative volume change that removing self-intersections may cause
-constexpr double kLargestFilledShare = 0.2;  // of the area: more than this is invention, not repair
-constexpr double kLeastKeptShare = 0.9;      // of the area that the largest surface must have to stand for the scan
+constexpr double kWeldDistance = 1e-6;         // of the diagonal: single-precision files differ by less
+constexpr int kElementLimit = 4000;            // surface elements of the winding number: 1 % at half a second
+constexpr double kLeastHullRatio = 0.2;        // a closed mesh may be a thin or hollow-cheeked particle
+constexpr double kLargestRecut = 0.005;        // relative volume change that removing self-intersections may cause
+constexpr double kLargestFilledShare = 0.2;    // of the area: more than this is invention, not repair
+constexpr double kLeastKeptShare = 0.9;        // of the area that the largest surface must have to stand for the scan
+constexpr std::size_t kEnoughVertices = 2000;  // fewer are sampled on the faces before a surface is rebuilt from points
 constexpr double kAlphaParts[] = {90, 65, 45, 30};  // alpha = diagonal / parts, fine to coarse
 constexpr double kOffsetPart = 1.0 / 30;            // offset / alpha
 
@@ -123,12 +124,23 @@ PointCloud as_cloud(const catalog::TriangleMesh& mesh) {
   return cloud;
 }
 
-/// Poisson surface of the mesh's vertices, for a mesh of many holes or of tangled shells.
-Reconstruction rebuilt_from_vertices(const catalog::TriangleMesh& mesh, int genus) {
+/// Vertices with normals, or samples of the faces where the vertices are too few to show the surface.
+PointCloud points_of(const catalog::TriangleMesh& mesh) {
+  if (mesh.vertices.size() >= kEnoughVertices) return as_cloud(mesh);
+  PointCloud cloud;
+  for (const SurfaceElement& sample : surface_samples(mesh)) {
+    cloud.points.push_back(sample.centre);
+    cloud.normals.push_back(normalized(sample.area));
+  }
+  return cloud;
+}
+
+/// Poisson surface of the mesh's points, for a mesh of many holes or of tangled shells.
+Reconstruction rebuilt_from_points(const catalog::TriangleMesh& mesh, int genus) {
   ReconstructionOptions options;
   options.method = ReconstructionMethod::poisson;
   options.genus = genus;
-  return reconstruct_surface(as_cloud(mesh), options);
+  return reconstruct_surface(points_of(mesh), options);
 }
 
 }  // namespace
@@ -171,15 +183,15 @@ RepairedMesh repair_mesh(const catalog::TriangleMesh& scanned, const RepairOptio
   const std::string replaced = options.wrapping == Wrapping::always ? "" : "repair left " + flaws;
   std::string tried = flaws;
   if (options.wrapping == Wrapping::where_repair_fails) {
-    Reconstruction rebuilt = rebuilt_from_vertices(all_surfaces, options.genus);
-    // Where the mesh's own normals contradict its vertices, its patches are turned at random: nothing to build on.
+    Reconstruction rebuilt = rebuilt_from_points(all_surfaces, options.genus);
+    // Where the mesh's own normals contradict its points, its patches are turned at random: nothing to build on.
     const bool is_oriented = std::all_of(rebuilt.checks.begin(), rebuilt.checks.end(), [](const catalog::Check& check) {
       return check.name != "given_normals" || check.passed;
     });
     if (!is_oriented) rebuilt.refusal = "its faces are not turned alike";
     if (rebuilt.refusal.empty()) {
       result.mesh = std::move(rebuilt.mesh);
-      result.checks.push_back({"repaired_solid", false, 0, replaced + "; rebuilt from its vertices instead"});
+      result.checks.push_back({"repaired_solid", false, 0, replaced + "; rebuilt from its points instead"});
       result.checks.insert(result.checks.end(), rebuilt.checks.begin(), rebuilt.checks.end());
       return result;
     }

@@ -2,8 +2,11 @@
 // talus-digitize: scans to shapes in the catalogue.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -145,10 +148,30 @@ std::vector<std::string> shape_names(const std::vector<fs::path>& scans, const s
 }
 
 struct Outcome {
-  std::string name, status;  // "stored", "skipped" or "rejected"
-  std::string reason;        // of a rejection
+  std::string name, status;  // "stored", "skipped", "rejected" or "missing"
+  std::string reason;        // of "rejected" and "missing"
   catalog::ShapeSummary summary;
+
+  bool is_bad() const { return status == "rejected" || status == "missing"; }
 };
+
+/// The catalogue to fill; SQLite takes an empty file for a new database, but it may be anything of the user's.
+catalog::ShapeCatalog open_catalog(const fs::path& path) {
+  if (fs::is_regular_file(path) && fs::file_size(path) == 0)
+    throw catalog::InputError(
+        path.string() + ": is an empty file, expected a catalogue or a new name; delete the file or name another");
+  return {path, catalog::ShapeCatalog::Access::read_write};
+}
+
+/// A reason up to its first semicolon, without the file's name before it.
+std::string first_reason(const Outcome& outcome, const fs::path& scan) {
+  std::string text = outcome.reason;
+  const std::string prefix = scan.string() + ": ";
+  if (text.starts_with(prefix)) text.erase(0, prefix.size());
+  text.resize(std::min(text.size(), text.find("; ")));
+  if (std::count(text.begin(), text.end(), '(') > std::count(text.begin(), text.end(), ')')) text += ')';
+  return text;
+}
 
 class Batch {
  public:
@@ -157,41 +180,63 @@ class Batch {
         options_(options),
         scans_(shape_pipeline::scan_files(line.inputs)),
         names_(shape_names(scans_, line.name)),
-        catalog_(line.catalog_path, catalog::ShapeCatalog::Access::read_write),
         progress_("digitize", static_cast<int>(scans_.size())) {
     if (!line.truth_path.empty()) truths_ = shape_pipeline::read_truth(line.truth_path);
+    // Without a scan to read no catalogue is made.
+    if (std::any_of(scans_.begin(), scans_.end(), [](const fs::path& scan) { return fs::exists(scan); }))
+      catalog_.emplace(open_catalog(line.catalog_path));
   }
 
-  std::vector<Outcome> run() {
-    std::vector<Outcome> outcomes;
+  void run() {
     for (std::size_t s = 0; s < scans_.size(); ++s) {
       progress_.step(scans_[s].filename().string());
-      outcomes.push_back(process(scans_[s], names_[s]));
+      outcomes_.push_back(process(scans_[s], names_[s]));
     }
     progress_.finish();
-    return outcomes;
   }
 
+  /// Of the scans done, in the order of the scans.
+  const std::vector<Outcome>& outcomes() const { return outcomes_; }
+  const fs::path& scan(std::size_t s) const { return scans_[s]; }
+
  private:
+  /// Errors of the scan make an outcome; errors of the catalogue, such as a lock, are not the scan's and end the batch.
   Outcome process(const fs::path& scan, const std::string& name) {
+    if (!fs::exists(scan)) {
+      const std::string reason = scan.string() + ": no such file; check the path";
+      progress_.note(reason);
+      return {name, "missing", reason, {}};
+    }
     catalog::Provenance provenance{scan.filename().string(), "", tool_version(), ""};
+    const auto known = truths_.find(scan.filename().string());
+    const auto truth = known == truths_.end() ? std::nullopt : std::optional(known->second);
+    provenance.options = options_text(line_, truth);
+    if (const std::string reason = refusal(scan, [&] { provenance.source_sha256 = catalog::sha256_of_file(scan); });
+        !reason.empty())
+      return rejected(name, provenance, reason);
+    if (const auto id = catalog_->find(name); id && is_same(catalog_->shape(*id).provenance, provenance)) {
+      catalog_->forget_rejected(name);
+      return {name, "skipped", "", catalog_->summary(*id)};
+    }
+    catalog::ShapeRecord shape;
+    if (const std::string reason = refusal(scan, [&] { shape = shape_pipeline::digitize(scan, options_, truth); });
+        !reason.empty())
+      return rejected(name, provenance, reason);
+    shape.name = name;
+    shape.provenance = provenance;
+    return {name, "stored", "", catalog_->summary(catalog_->store_shape(shape))};
+  }
+
+  /// Why `work` refuses the scan; empty if it does not.
+  static std::string refusal(const fs::path& scan, const std::function<void()>& work) {
     try {
-      provenance.source_sha256 = catalog::sha256_of_file(scan);
-      const auto known = truths_.find(scan.filename().string());
-      const auto truth = known == truths_.end() ? std::nullopt : std::optional(known->second);
-      provenance.options = options_text(line_, truth);
-      if (const auto id = catalog_.find(name); id && is_same(catalog_.shape(*id).provenance, provenance))
-        return {name, "skipped", "", catalog_.summary(*id)};
-      catalog::ShapeRecord shape = shape_pipeline::digitize(scan, options_, truth);
-      shape.name = name;
-      shape.provenance = provenance;
-      return {name, "stored", "", catalog_.summary(catalog_.store_shape(shape))};
+      work();
+      return "";
     } catch (const catalog::InputError& error) {
-      return rejected(name, provenance, error.what());
+      return error.what();
     } catch (const std::logic_error& error) {
       // CGAL reports a geometry it cannot handle this way: this particle is lost, the batch is not.
-      return rejected(name, provenance,
-                      scan.string() + ": the geometry library gave up (" + error.what() + "); clean the scan");
+      return scan.string() + ": the geometry library gave up (" + error.what() + "); clean the scan";
     }
   }
 
@@ -200,7 +245,7 @@ class Batch {
   }
 
   Outcome rejected(const std::string& name, const catalog::Provenance& provenance, const std::string& reason) {
-    catalog_.store_rejected({name, provenance.source_file, provenance.source_sha256, reason});
+    catalog_->store_rejected({name, provenance.source_file, provenance.source_sha256, reason});
     progress_.note("rejected: " + reason);
     return {name, "rejected", reason, {}};
   }
@@ -209,15 +254,16 @@ class Batch {
   const DigitizationOptions& options_;
   std::vector<fs::path> scans_;
   std::vector<std::string> names_;
-  catalog::ShapeCatalog catalog_;
+  std::optional<catalog::ShapeCatalog> catalog_;  // none if every scan is missing
   BatchProgress progress_;
   std::map<std::string, ScanTruth> truths_;
+  std::vector<Outcome> outcomes_;
 };
 
 void print_json(const std::vector<Outcome>& outcomes) {
   for (const Outcome& outcome : outcomes) {
     nlohmann::ordered_json row{{"name", outcome.name}, {"status", outcome.status}};
-    if (outcome.status == "rejected") {
+    if (outcome.is_bad()) {
       row["reason"] = outcome.reason;
     } else {
       row["descriptors"] = outcome.summary.descriptors;
@@ -231,7 +277,7 @@ void print_table(const std::vector<Outcome>& outcomes) {
   std::printf("%-28s %-8s %12s %12s %10s %7s %10s %9s  %s\n", "name", "status", "volume[m3]", "area[m2]", "sieve[m]",
               "faces", "sphericity", "convexity", "checks not passed");
   for (const Outcome& outcome : outcomes) {
-    if (outcome.status == "rejected") {
+    if (outcome.is_bad()) {
       std::printf("%-28s %-8s\n", outcome.name.c_str(), outcome.status.c_str());
       continue;
     }
@@ -266,14 +312,23 @@ int make_virtual_scans(const CommandLine& line) {
 
 int digitize_batch(const CommandLine& line) {
   const DigitizationOptions options = checked_options(line);
-  const std::vector<Outcome> outcomes = Batch(line, options).run();
-  line.is_json ? print_json(outcomes) : print_table(outcomes);
-  std::size_t bad = 0;
-  for (const Outcome& outcome : outcomes) bad += outcome.status == "rejected";
+  Batch batch(line, options);
+  const std::vector<Outcome>& outcomes = batch.outcomes();
+  const auto print = [&] { line.is_json ? print_json(outcomes) : print_table(outcomes); };
+  try {
+    batch.run();
+  } catch (const std::exception&) {
+    print();  // what is done stays done
+    std::fflush(stdout);
+    throw;
+  }
+  print();
+  const auto bad = std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return o.is_bad(); });
   if (bad == 0) return kDone;
-  std::fprintf(stderr, "digitize: %zu of %zu scans rejected:\n", bad, outcomes.size());
-  for (const Outcome& outcome : outcomes)
-    if (outcome.status == "rejected") std::fprintf(stderr, "  %s: %s\n", outcome.name.c_str(), outcome.reason.c_str());
+  std::fprintf(stderr, "digitize: %td of %zu scans rejected or missing:\n", bad, outcomes.size());
+  for (std::size_t s = 0; s < outcomes.size(); ++s)
+    if (outcomes[s].is_bad())
+      std::fprintf(stderr, "  %s: %s\n", outcomes[s].name.c_str(), first_reason(outcomes[s], batch.scan(s)).c_str());
   return kBadInput;
 }
 

@@ -66,6 +66,11 @@ void check_stl(const std::filesystem::path& path, std::string_view bytes) {
   if (bytes.size() < kStlHeaderBytes)
     refuse_file(path, "header", "expected 84 bytes, found " + std::to_string(bytes.size()) + ": truncated or no STL",
                 kExportAgain);
+  if (triangles > 0 && bytes.size() > expected)
+    refuse_file(path, "header",
+                "the file has " + std::to_string(bytes.size() - expected) + " bytes more than its " +
+                    std::to_string(triangles) + " triangles need",
+                kExportAgain);
   refuse_file(path, "header",
               std::to_string(triangles) + " triangles need " + std::to_string(expected) + " bytes, the file has " +
                   std::to_string(bytes.size()) + ": truncated or no STL",
@@ -111,7 +116,8 @@ void check_obj(const std::filesystem::path& path, std::string_view bytes) {
       parse_number(words[w].substr(0, words[w].find('/')), index);
       if (index > static_cast<double>(vertices))
         refuse_file(path, again.place(),
-                    "vertex index " + std::string(words[w]) + " of only " + std::to_string(vertices) + ": truncated",
+                    "vertex index " + std::string(words[w]) + " is out of range, the file has " +
+                        std::to_string(vertices) + " vertices",
                     kExportAgain);
     }
   }

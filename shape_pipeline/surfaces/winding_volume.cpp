@@ -2,6 +2,7 @@
 #include "shape_pipeline/surfaces/winding_volume.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -16,6 +17,7 @@ namespace shape_pipeline {
 namespace {
 
 constexpr int kCellsAlongLongest = 48;  // midpoint cells: the counting error is near 0.3 % of a blocky solid
+constexpr double kMostPieces = 400000;  // of split triangles: a fan of slivers over the whole solid stays affordable
 constexpr int kAreaNeighbours = 12;     // points that share a patch of cloud: enough to average uneven spacing
 
 /// Merges elements by cells whose width leaves about `limit` of them on the surface.
@@ -44,6 +46,43 @@ std::vector<SurfaceElement> merged(const std::vector<SurfaceElement>& elements, 
   return result;
 }
 
+using Corners = std::array<Point, 3>;
+
+/// The corner from which a triangle's longest edge starts.
+int longest_edge(const Corners& t) {
+  const std::array<double, 3> lengths{distance(t[0], t[1]), distance(t[1], t[2]), distance(t[2], t[0])};
+  return static_cast<int>(std::max_element(lengths.begin(), lengths.end()) - lengths.begin());
+}
+
+double longest_edge_length(const Corners& t) {
+  const int e = longest_edge(t);
+  return distance(t[e], t[(e + 1) % 3]);
+}
+
+/// Edge length [m] to which the triangles are split: a cell's, or more where that would make too many pieces.
+double split_length(const std::vector<Corners>& triangles) {
+  Point low = triangles.front()[0], high = low;
+  for (const Corners& triangle : triangles)
+    for (const Point& corner : triangle)
+      for (int i = 0; i < 3; ++i) {
+        low[i] = std::min(low[i], corner[i]);
+        high[i] = std::max(high[i], corner[i]);
+      }
+  const Point extent = subtract(high, low);
+  double length = *std::max_element(extent.begin(), extent.end()) / kCellsAlongLongest;
+  const auto pieces = [&] {
+    double sum = 0;
+    for (const Corners& t : triangles) {
+      const double edges = longest_edge_length(t) / length;
+      const double area = norm(cross(subtract(t[1], t[0]), subtract(t[2], t[0])));
+      if (edges > 1) sum += 2 * edges + 4 * area / (length * length);
+    }
+    return sum;
+  };
+  while (length > 0 && pieces() > kMostPieces) length *= 1.5;
+  return length;
+}
+
 /// Columns in single precision, so that the sum over elements runs in vector instructions.
 struct ElementColumns {
   std::vector<float> x, y, z, area_x, area_y, area_z;
@@ -63,14 +102,32 @@ struct ElementColumns {
 
 }  // namespace
 
-std::vector<SurfaceElement> surface_elements(const catalog::TriangleMesh& soup, int limit) {
+std::vector<SurfaceElement> surface_samples(const catalog::TriangleMesh& soup) {
+  std::vector<Corners> left;
+  left.reserve(soup.faces.size());
+  for (auto face = soup.faces.rbegin(); face != soup.faces.rend(); ++face)
+    left.push_back({soup.vertices[(*face)[0]], soup.vertices[(*face)[1]], soup.vertices[(*face)[2]]});
   std::vector<SurfaceElement> elements;
-  elements.reserve(soup.faces.size());
-  for (const catalog::Triangle& face : soup.faces) {
-    const Point &a = soup.vertices[face[0]], &b = soup.vertices[face[1]], &c = soup.vertices[face[2]];
-    elements.push_back({scaled(add(add(a, b), c), 1.0 / 3), scaled(cross(subtract(b, a), subtract(c, a)), 0.5)});
+  if (left.empty()) return elements;
+  const double length = split_length(left);
+  while (!left.empty()) {
+    const Corners triangle = left.back();
+    left.pop_back();
+    const int e = longest_edge(triangle);
+    const Point &a = triangle[e], &b = triangle[(e + 1) % 3], &c = triangle[(e + 2) % 3];
+    if (length > 0 && distance(a, b) > length) {
+      const Point middle = scaled(add(a, b), 0.5);
+      left.push_back({a, middle, c});
+      left.push_back({middle, b, c});
+    } else {
+      elements.push_back({scaled(add(add(a, b), c), 1.0 / 3), scaled(cross(subtract(b, a), subtract(c, a)), 0.5)});
+    }
   }
-  return merged(elements, limit);
+  return elements;
+}
+
+std::vector<SurfaceElement> surface_elements(const catalog::TriangleMesh& soup, int limit) {
+  return merged(surface_samples(soup), limit);
 }
 
 std::vector<SurfaceElement> surface_elements(const PointCloud& cloud, int limit) {
@@ -115,16 +172,20 @@ double winding_volume(const std::vector<SurfaceElement>& elements) {
   const double element_area = total_area / (longest * longest) / static_cast<double>(elements.size());
   const auto smallest_squared_distance = static_cast<float>(element_area / 4);
 
-  constexpr float cell = 1.0f / kCellsAlongLongest;
+  // Whole cells along each axis fit a thin box; unequal numbers keep oblique faces off the planes of the grid.
   std::array<int, 3> cells;
-  for (int i = 0; i < 3; ++i) cells[i] = std::max(1, static_cast<int>(std::ceil(extent[i] / longest / cell)));
+  std::array<float, 3> width;  // of a cell / longest
+  for (int i = 0; i < 3; ++i) {
+    cells[i] = i + std::max(1, static_cast<int>(std::ceil(extent[i] / longest * kCellsAlongLongest)));
+    width[i] = static_cast<float>(extent[i] / longest / cells[i]);
+  }
   std::vector<float> winding;
   winding.reserve(static_cast<std::size_t>(cells[0]) * cells[1] * cells[2]);
   for (int i = 0; i < cells[0]; ++i)
     for (int j = 0; j < cells[1]; ++j)
       for (int k = 0; k < cells[2]; ++k)
-        winding.push_back(
-            columns.winding_number((i + 0.5f) * cell, (j + 0.5f) * cell, (k + 0.5f) * cell, smallest_squared_distance));
+        winding.push_back(columns.winding_number((i + 0.5f) * width[0], (j + 0.5f) * width[1], (k + 0.5f) * width[2],
+                                                 smallest_squared_distance));
 
   // The level inside is 1 for exact areas; for a cloud the areas are estimates with a common bias.
   std::vector<float> inside;
@@ -134,7 +195,7 @@ double winding_volume(const std::vector<SurfaceElement>& elements) {
   std::nth_element(inside.begin(), inside.begin() + inside.size() / 2, inside.end());
   const float threshold = inside[inside.size() / 2] / 2;
   const auto count = std::count_if(winding.begin(), winding.end(), [&](float w) { return w > threshold; });
-  return static_cast<double>(count) * std::pow(longest * cell, 3);
+  return static_cast<double>(count) / static_cast<double>(winding.size()) * extent[0] * extent[1] * extent[2];
 }
 
 }  // namespace shape_pipeline

@@ -14,7 +14,11 @@ struct SurfaceElement {
   catalog::Point area;    // normal times area, outward [m2]
 };
 
-/// Elements of a triangle soup: exact areas; close triangles are merged, so that about `limit` remain.
+/// A triangle soup cut into elements no longer than 1/48 of its longest side (longer where they would be too many).
+std::vector<SurfaceElement> surface_samples(const catalog::TriangleMesh& soup);
+
+/// Elements of a triangle soup: exact areas; large triangles are split, close ones merged, so that about `limit`
+/// remain.
 std::vector<SurfaceElement> surface_elements(const catalog::TriangleMesh& soup, int limit);
 
 /// Elements of an oriented cloud: each point stands for the area pi r_k^2 / k of its k nearest neighbours.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // talus-digitize as a user runs it: exit statuses, batches, repetition.
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -63,10 +64,13 @@ TEST(DigitizeTool, ABatchGoesOnPastABadParticleAndIsIncremental) {
   write_text(folder / "scans/cut.ply", "ply\nformat ascii 1.0\n");
   const ToolRun first = digitize(folder, "scans nowhere.stl --into ore.talus --unit mm --json");
   EXPECT_EQ(first.status, 3);
-  EXPECT_NE(first.errors.find("3 of 5 scans rejected"), std::string::npos) << first.errors;
+  EXPECT_NE(first.errors.find("3 of 5 scans rejected or missing:"), std::string::npos) << first.errors;
   catalog::ShapeCatalog catalog(folder / "ore.talus", catalog::ShapeCatalog::Access::read_only);
   EXPECT_EQ(catalog.select("").size(), 2u);
-  ASSERT_EQ(catalog.rejected().size(), 3u);
+  ASSERT_EQ(catalog.rejected().size(), 2u);  // the missing one is no scan
+  EXPECT_NE(first.errors.find("nowhere: no such file"), std::string::npos) << first.errors;
+  const std::string remedy = "state its handles with --genus";
+  EXPECT_EQ(first.errors.find(remedy), first.errors.rfind(remedy)) << first.errors;
   const catalog::ShapeRecord box = catalog.shape(*catalog.find("box"));
   EXPECT_NEAR(box.mass_properties.volume, 6e-9, 1e-14);
   EXPECT_EQ(box.provenance.source_sha256, catalog::sha256_of_file(folder / "scans/box.stl"));
@@ -77,6 +81,56 @@ TEST(DigitizeTool, ABatchGoesOnPastABadParticleAndIsIncremental) {
   EXPECT_EQ(again.output.find("stored"), std::string::npos) << again.output;
   const ToolRun other_unit = digitize(folder, "scans/box.stl --into ore.talus --unit cm --json");
   EXPECT_NE(other_unit.output.find("stored"), std::string::npos) << other_unit.output;
+}
+
+TEST(DigitizeTool, AMissingScanMakesNoCatalogue) {
+  const TemporaryFolder folder;
+  const ToolRun run = digitize(folder, "nowhere.stl --into ore.talus --unit mm");
+  EXPECT_EQ(run.status, 3);
+  EXPECT_NE(run.errors.find("nowhere.stl: no such file; check the path"), std::string::npos) << run.errors;
+  EXPECT_FALSE(std::filesystem::exists(folder / "ore.talus"));
+}
+
+TEST(DigitizeTool, AFileOfAnotherKindIsNoCatalogue) {
+  const TemporaryFolder folder;
+  shape_pipeline::write_stl(folder / "box.stl", box_mesh({0, 0, 0}, {1, 2, 3}));
+  for (const std::string& bytes : {std::string(), std::string("a letter"), std::string(5000, 'x')}) {
+    write_text(folder / "letter", bytes);
+    EXPECT_EQ(digitize(folder, "box.stl --into letter --unit mm").status, 3) << bytes.size();
+    EXPECT_EQ(contents(folder / "letter"), bytes);
+  }
+}
+
+TEST(DigitizeTool, AShapeThatIsThereIsRejectedNoLonger) {
+  const TemporaryFolder folder;
+  shape_pipeline::write_stl(folder / "box.stl", box_mesh({0, 0, 0}, {1, 2, 3}));
+  ASSERT_EQ(digitize(folder, "box.stl --into ore.talus --unit mm").status, 0);
+  const std::string good = contents(folder / "box.stl");
+  write_text(folder / "box.stl", good.substr(0, 300));
+  ASSERT_EQ(digitize(folder, "box.stl --into ore.talus --unit mm").status, 3);
+  write_text(folder / "box.stl", good);
+  const ToolRun again = digitize(folder, "box.stl --into ore.talus --unit mm");
+  EXPECT_EQ(again.status, 0);
+  EXPECT_NE(again.output.find("skipped"), std::string::npos) << again.output;
+  const catalog::ShapeCatalog catalog(folder / "ore.talus", catalog::ShapeCatalog::Access::read_only);
+  EXPECT_TRUE(catalog.rejected().empty());
+}
+
+TEST(DigitizeTool, ALockedCatalogueIsNotTheScansFault) {
+  const TemporaryFolder folder;
+  shape_pipeline::write_stl(folder / "a.stl", box_mesh({0, 0, 0}, {1, 2, 3}));
+  shape_pipeline::write_stl(folder / "b.stl", box_mesh({0, 0, 0}, {1, 1, 1}));
+  ASSERT_EQ(digitize(folder, "a.stl --into ore.talus --unit mm").status, 0);
+  sqlite3* writer = nullptr;
+  ASSERT_EQ(sqlite3_open((folder / "ore.talus").string().c_str(), &writer), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(writer, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr), SQLITE_OK);
+  const ToolRun locked = digitize(folder, "a.stl b.stl --into ore.talus --unit mm --json");
+  sqlite3_close(writer);
+  EXPECT_EQ(locked.status, 3);
+  EXPECT_NE(locked.errors.find("still locked"), std::string::npos) << locked.errors;
+  EXPECT_EQ(locked.errors.find("rejected"), std::string::npos) << locked.errors;
+  EXPECT_NE(locked.output.find("\"a\",\"status\":\"skipped\""), std::string::npos) << locked.output;
+  EXPECT_EQ(locked.output.find("\"b\""), std::string::npos) << locked.output;
 }
 
 TEST(DigitizeTool, VirtualScansToTheSameCatalogueTwice) {

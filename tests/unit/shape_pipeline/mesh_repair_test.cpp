@@ -99,6 +99,21 @@ TEST(MeshRepair, FillsAHoleAlongTheSurface) {
   EXPECT_EQ(figure(repaired.checks, "repair_filled_holes"), 1);
 }
 
+TEST(MeshRepair, ClosesACubeThatLacksAFace) {
+  catalog::TriangleMesh cube = box_mesh({0, 0, 0}, {0.02, 0.02, 0.02});
+  std::erase_if(cube.faces, [&](const auto& face) {
+    return std::all_of(face.begin(), face.end(), [&](int v) { return cube.vertices[v][2] > 0.01; });
+  });
+  ASSERT_EQ(cube.faces.size(), 10u);
+  expect_solid(repair_mesh(cube, {}), 8e-6, 0.05);
+}
+
+TEST(MeshRepair, SecondVolumeAgreesOnACleanCube) {
+  const RepairedMesh repaired = repair_mesh(box_mesh({0, 0, 0}, {1, 1, 1}), {});
+  ASSERT_EQ(repaired.refusal, "");
+  EXPECT_LT(std::abs(figure(repaired.checks, "volume_second_method")), 0.01);
+}
+
 TEST(MeshRepair, KeepsTheLargestOfTwoSurfaces) {
   const RepairedMesh repaired =
       repair_mesh(joined(box_mesh({5, 5, 5}, {5.2, 5.2, 5.2}), box_mesh({0, 0, 0}, {2, 2, 2})), kNoWrap);

@@ -266,6 +266,7 @@ const BadFile kBadFiles[] = {
     {"cut_faces.ply", [] { return cut(off_or_ply(kBox, kPlyBox), 0.9); }, "of 12: the file ends here"},
     {"index.ply", [] { return with(off_or_ply(kBox, kPlyBox), "3 5 7 6", "3 5 7 8"); }, "vertex index 8 is not in"},
     {"cut.stl", [] { return cut(binary_stl(), 0.6); }, "12 triangles need 684 bytes, the file has 410"},
+    {"long.stl", [] { return binary_stl() + "tail"; }, "has 4 bytes more than its 12 triangles need"},
     {"cut_ascii.stl", [] { return cut(ascii_stl(kBox), 0.5); }, "truncated"},
     {"nan.stl", [] { return with(ascii_stl(kBox), "vertex 0 0 0", "vertex 0 nan 0"); }, "a coordinate is no number"},
     {"nan_binary.stl",
@@ -280,7 +281,7 @@ const BadFile kBadFiles[] = {
      [] {
        return obj({kBox.vertices, {{0, 1, 2}, {0, 1, 30}}}, "");
      },
-     "vertex index 31 of only 8"},
+     "vertex index 31 is out of range, the file has 8 vertices"},
     {"points.obj",
      [] {
        return obj({kBox.vertices, {}}, "");

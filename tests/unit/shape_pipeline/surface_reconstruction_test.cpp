@@ -118,6 +118,17 @@ TEST(WindingVolume, OfMeshesAndOfAHoledOne) {
   EXPECT_NEAR(winding_volume(surface_elements(sphere, 4000)), volume, 0.02 * volume);
 }
 
+TEST(WindingVolume, OfSolidsWithFewLargeFaces) {
+  const catalog::TriangleMesh tetrahedron{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}},
+                                          {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  const std::pair<catalog::TriangleMesh, double> solids[] = {{box_mesh({0, 0, 0}, {1, 1, 1}), 1},
+                                                             {box_mesh({0, 0, 0}, {1, 0.8, 0.6}), 0.48},
+                                                             {box_mesh({0, 0, 0}, {1, 1, 0.1}), 0.1},
+                                                             {tetrahedron, 1.0 / 6}};
+  for (const auto& [mesh, volume] : solids)
+    EXPECT_NEAR(winding_volume(surface_elements(mesh, 4000)), volume, 0.01 * volume) << volume;
+}
+
 TEST(SurfaceDistance, IsSignedAndExactOnABox) {
   const catalog::TriangleMesh box = box_mesh({0, 0, 0}, {1, 1, 1});
   const std::vector<double> d = signed_distances_to_surface({{0.5, 0.5, 1.25}, {0.5, 0.4, 0.9}, {2, 2, 0.5}}, box);
