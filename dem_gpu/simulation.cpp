@@ -141,7 +141,6 @@ struct Simulation::Engine {
   Model model;
   State state;
   std::vector<std::unique_ptr<Pass>> passes;
-  mutable std::string last_error;
 
   explicit Engine(const Scene& scene)
       : model(make_model(scene, initial_bodies)),
@@ -309,8 +308,8 @@ void Simulation::write_checkpoint(const std::filesystem::path& run_folder) const
   write_checkpoint_file(run_folder, engine_->model, engine_->state);
 }
 
-void Simulation::read_checkpoint(const std::filesystem::path& run_folder) {
-  read_checkpoint_file(run_folder, engine_->model, engine_->state);
+std::string Simulation::read_checkpoint(const std::filesystem::path& run_folder) {
+  return read_checkpoint_file(run_folder, engine_->model, engine_->state);
 }
 
 }  // namespace dem_gpu

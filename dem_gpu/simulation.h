@@ -87,9 +87,10 @@ class Simulation {
   /// The whole state, bit for bit. write_checkpoint writes beside, flushes, keeps the last one as
   /// checkpoint_previous.h5.
   void write_checkpoint(const std::filesystem::path& run_folder) const;
-  /// Goes on from the checkpoint in run_folder (the previous one if the last is damaged). Throws catalog::InputError if
-  /// it belongs to another scene, version or precision.
-  void read_checkpoint(const std::filesystem::path& run_folder);
+  /// Goes on from the checkpoint in run_folder (the previous one if the last is damaged). Returns what there is to
+  /// tell: nothing, or that it went on from the previous one and why. Throws catalog::InputError if it belongs to
+  /// another scene, version or precision.
+  std::string read_checkpoint(const std::filesystem::path& run_folder);
 
  private:
   struct Engine;

@@ -27,6 +27,7 @@ namespace dem_gpu {
 //   ledger.csv                   long form: time[s],class,dissipation_normal[J],dissipation_shear[J]
 //   run.json                     summary written at the end: see RunSummary in simulation.h
 //   run.log                      passes, warnings, progress lines
+//   lock                         held by the process that runs it
 
 struct ShapeGeometry {
   std::string name;

@@ -18,10 +18,11 @@ namespace {
 namespace fs = std::filesystem;
 using namespace workflows;
 
-constexpr const char* kHelp = R"(Measures speed and error on named cases.
+constexpr const char* kHelp = R"(Example: talus bench overlap
+
+Measures speed and error on named cases.
 
   talus bench --list
-  talus bench overlap
   talus bench contact --json results/contact.json
   talus bench laws --case face-slide-depth
 
@@ -48,7 +49,7 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
   app.add_option("--threads", options.threads,
                  "thread counts to compare, such as 1,2; default: the engine's own choice")
       ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1000000));
   app.add_flag("--list", options.is_list, "name the benches and their cases");
   app.set_version_flag("--version", tool_version());
   try {

@@ -76,9 +76,9 @@ void declare_options(CLI::App& app, CatalogOptions& options) {
   write->add_option("--ply", options.ply, "binary PLY (float64, part numbers)");
   write->add_option("--off", options.off, "OFF text (exact)");
   write->add_option("--level", options.level, "parts asked for: 1, 2, 4, ...; the mesh if not given")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1000000));
   write->add_option("--vertex-cap", options.vertex_cap, "of the level; the largest if not given")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1000000));
   action("rejected", "Example: talus catalog rejected ore.talus\nInputs that could not be used, with the reason.");
 }
 

@@ -22,8 +22,8 @@ using dem_gpu::Snapshot;
 using postprocess::RunFolder;
 
 constexpr const char* kHelp =
-    "VTK series, pictures, curves and a report from a run folder.\n\n"
-    "Example: talus post runs/hopper\n"
+    "Example: talus post runs/hopper\n\n"
+    "VTK series, pictures, curves and a report from a run folder:\n"
     "  writes runs/hopper/report.html and, in runs/hopper/post, PVD and VTP files for ParaView, PNG and SVG.\n";
 
 struct PostOptions {
@@ -41,7 +41,7 @@ PostOptions parse_post_options(int argc, char** argv) {
   bool no_pictures = false;
   app.add_option("RUN", options.run, "run folder of talus simulate")->required();
   app.add_flag("--no-pictures", no_pictures, "draw no pictures");
-  app.add_option("--every", options.every, "VTP files of every N-th snapshot only")->check(CLI::PositiveNumber);
+  app.add_option("--every", options.every, "VTP files of every N-th snapshot only")->check(CLI::Range(1, 1000000));
   app.add_flag("--report-only", options.is_report_only, "no VTP files: report, curves and pictures");
   app.add_flag("--json", options.is_json, "print the figures as one JSON object on stdout");
   app.add_flag("--draw-pictures", options.draws_only)->group("");

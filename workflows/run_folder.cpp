@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "workflows/run_folder.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <ctime>
 #include <fstream>
+#include <vector>
 
 #include "catalog/input_error.h"
 #include "workflows/atomic_file.h"
@@ -11,6 +18,10 @@
 namespace workflows {
 
 namespace fs = std::filesystem;
+
+RunFolder::~RunFolder() {
+  if (lock_ >= 0) ::close(lock_);
+}
 
 fs::path RunFolder::snapshot_file(std::int64_t number) const {
   char name[40];
@@ -37,7 +48,10 @@ void RunFolder::require_run() const {
                               "that an earlier talus simulate made");
 }
 
-bool RunFolder::is_finished() const { return read_json("run.json").value("finished", false); }
+bool RunFolder::is_finished() const {
+  const nlohmann::ordered_json summary = read_json("run.json");
+  return summary.contains("finished") && summary["finished"] == true;
+}
 
 bool RunFolder::has_checkpoint() const {
   return fs::exists(path_ / "checkpoint.h5") || fs::exists(path_ / "checkpoint_previous.h5");
@@ -49,9 +63,27 @@ nlohmann::ordered_json RunFolder::read_json(const char* name) const {
   return json.is_object() ? json : nlohmann::ordered_json::object();
 }
 
+void RunFolder::lock() {
+  lock_ = ::open((path_ / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (lock_ < 0)
+    throw catalog::InputError(path_.string() + ": cannot be written (" + std::strerror(errno) +
+                              "); make it writable or choose another --out");
+  // File systems that know no locks are let pass.
+  if (::flock(lock_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw catalog::InputError(path_.string() +
+                              ": is being run by another process; wait for it or choose another --out");
+}
+
 void RunFolder::start(const SceneDescription& description, const nlohmann::ordered_json& resolved,
-                      const dem_gpu::RunGeometry& geometry) const {
-  fs::create_directories(path_ / "snapshots");
+                      const dem_gpu::RunGeometry& geometry) {
+  try {
+    fs::create_directories(path_ / "snapshots");
+  } catch (const fs::filesystem_error& error) {
+    throw catalog::InputError(path_.string() + ": cannot be made (" + error.code().message() +
+                              "); choose a folder that can be written with --out");
+  }
+  lock();
+  if (fs::exists(scene_file())) refuse_if_used();  // another process was quicker
   write_json("resolved_scene.json", resolved);
   dem_gpu::write_geometry(path_ / "geometry.h5", geometry);
   // Last: from here on the folder counts as a run.
@@ -60,6 +92,17 @@ void RunFolder::start(const SceneDescription& description, const nlohmann::order
 
 void RunFolder::write_json(const char* name, const nlohmann::ordered_json& json) const {
   write_whole(path_ / name, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
+}
+
+void RunFolder::remove_snapshots_after(std::int64_t number) const {
+  std::vector<fs::path> later;
+  for (const auto& entry : fs::directory_iterator(path_ / "snapshots")) {
+    long long found = 0;
+    if (std::sscanf(entry.path().filename().c_str(), "snapshot_%lld.h5", &found) == 1 && found > number &&
+        entry.path() == snapshot_file(found))
+      later.push_back(entry.path());
+  }
+  for (const fs::path& file : later) fs::remove(file);
 }
 
 void RunFolder::write_snapshot(std::int64_t number, const dem_gpu::Snapshot& snapshot) const {

@@ -15,6 +15,9 @@ namespace workflows {
 class RunFolder {
  public:
   explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path scene_file() const { return path_ / "scene.toml"; }
@@ -30,16 +33,21 @@ class RunFolder {
   /// run.json or resolved_scene.json; an empty object if it cannot be read.
   nlohmann::ordered_json read_json(const char* name) const;
 
-  /// Makes the folder with scene.toml, resolved_scene.json and geometry.h5.
+  /// Keeps other processes off the folder as long as this lives; refuses if one has it already.
+  void lock();
+  /// Makes and locks the folder, with scene.toml, resolved_scene.json and geometry.h5.
   void start(const SceneDescription& description, const nlohmann::ordered_json& resolved,
-             const dem_gpu::RunGeometry& geometry) const;
+             const dem_gpu::RunGeometry& geometry);
   void write_json(const char* name, const nlohmann::ordered_json& json) const;
+  /// Removes the snapshots that a run left which is now gone on with from an earlier moment.
+  void remove_snapshots_after(std::int64_t number) const;
   void write_snapshot(std::int64_t number, const dem_gpu::Snapshot& snapshot) const;
   /// Adds a line, with the time of day, to run.log.
   void log(const std::string& line) const;
 
  private:
   std::filesystem::path path_;
+  int lock_ = -1;  // descriptor of the file "lock"
 };
 
 }  // namespace workflows

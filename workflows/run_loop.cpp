@@ -20,6 +20,15 @@ namespace {
 // Between two looks at signals and the clock.
 constexpr double kChunkSeconds = 0.2;
 
+// No run lasts longer: millions of steps a second for a week.
+constexpr double kMostSteps = 1e12;
+
+std::string numeral(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", value);
+  return text;
+}
+
 volatile std::sig_atomic_t stop_signal = 0;
 
 extern "C" void remember_stop(int signal) { stop_signal = signal; }
@@ -34,6 +43,7 @@ class RunLoop {
         series_(plan.folder.path(), plan.assembled.scene, is_resumed ? simulation.time() : -1),
         progress_(simulation.step()),
         last_row_step_(simulation.step()) {
+    plan.folder.remove_snapshots_after(schedule_.snapshot_number(simulation.step()));
     if (is_resumed) ledger_ = simulation.ledger();
   }
 
@@ -136,17 +146,26 @@ class RunLoop {
 RunSchedule run_schedule(const SceneDescription& description, const dem_gpu::Scene& scene) {
   const double time_step = dem_gpu::time_step(scene);
   const dem_gpu::RunControl& run = scene.run;
+  const auto refuse = [&](const std::string& what) {
+    throw catalog::InputError(description.file.string() + ": run." + what);
+  };
+  const double steps = run.end_time / time_step;
+  if (!(steps >= 1 && steps <= kMostSteps))
+    refuse("end_time of " + numeral(run.end_time) + " s is " + numeral(steps) + " time steps of " + numeral(time_step) +
+           " s; state a time of 1 to " + numeral(kMostSteps) + " steps");
   const auto times = [&](const char* key, double interval) {
+    if (!(interval / time_step <= kMostSteps))
+      refuse(key + (" is longer than " + numeral(kMostSteps)) + " time steps of " + numeral(time_step) +
+             " s; state a shorter one");
     if (interval > 0 && interval < time_step)
-      throw catalog::InputError(description.file.string() + ": run." + key + " is shorter than the time step of " +
-                                std::to_string(time_step * 1e6) + " us; state a longer one");
+      refuse(std::string(key) + " is shorter than the time step of " + numeral(time_step) + " s; state a longer one");
     return OutputTimes{interval, time_step};
   };
   RunSchedule schedule;
   schedule.snapshots = times("snapshot_every", run.snapshot_interval);
   schedule.series = times("series_every", run.series_interval > 0 ? run.series_interval : run.snapshot_interval);
   schedule.checkpoints = times("checkpoint_every", run.checkpoint_interval);
-  schedule.end_step = std::max<std::int64_t>(1, std::llround(run.end_time / time_step));
+  schedule.end_step = std::llround(steps);
   return schedule;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "workflows/run_reports.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -20,11 +21,14 @@ constexpr double kLargestImbalance = 0.02;
 
 std::string formatted(const char* format, ...) __attribute__((format(printf, 1, 2)));
 std::string formatted(const char* format, ...) {
-  char text[256];
-  va_list arguments;
+  va_list arguments, again;
   va_start(arguments, format);
-  std::vsnprintf(text, sizeof text, format, arguments);
+  va_copy(again, arguments);
+  const int length = std::vsnprintf(nullptr, 0, format, arguments);
   va_end(arguments);
+  std::string text(static_cast<std::size_t>(std::max(length, 0)), '\0');
+  std::vsnprintf(text.data(), text.size() + 1, format, again);
+  va_end(again);
   return text;
 }
 
@@ -231,22 +235,24 @@ std::vector<std::string> run_warnings(const AssembledScene& assembled, const Sce
                                       const dem_gpu::Simulation& simulation, const dem_gpu::EnergyLedger& ledger) {
   std::vector<std::string> warnings;
   const dem_gpu::RunQuality quality = simulation.quality();
-  const double asked_steps = assembled.scene.run.steps_per_contact;
+  const dem_gpu::RunControl& run = assembled.scene.run;
+  const double asked_steps =
+      run.time_step > 0 ? dem_gpu::shortest_contact_time(assembled.scene) / run.time_step : run.steps_per_contact;
   // The shortest contact met may be shorter than the one foreseen by a little without harm.
   if (quality.smallest_steps_per_contact > 0 && quality.smallest_steps_per_contact < 0.95 * asked_steps)
     warnings.push_back(
-        formatted("the stiffest contact met had %.1f steps, not %.1f; state a shorter time_step or more "
+        formatted("the stiffest contact met had %.4g steps, not %.4g; state a shorter time_step or more "
                   "steps_per_contact",
                   quality.smallest_steps_per_contact, asked_steps));
   if (assembled.scene.energy_ledger && imbalance_share(ledger) > kLargestImbalance)
     warnings.push_back(
-        formatted("energy is out of balance by %.2f %% of what was put in (more than %.0f %%); state "
+        formatted("energy is out of balance by %.4g %% of what was put in (more than %.4g %%); state "
                   "more steps_per_contact",
                   100 * imbalance_share(ledger), 100 * kLargestImbalance));
   if (description.stiffness.largest_overlap && quality.largest_overlap > *description.stiffness.largest_overlap)
     warnings.push_back(
-        formatted("the largest overlap was %.2f %% of a body's diameter, more than the %.2f %% asked for; "
-                  "state a higher at_speed",
+        formatted("the largest overlap was %.4g %% of a body's diameter, at a corner or edge most likely; the %.4g %% "
+                  "asked for hold for a flat strike at at_speed; state a higher at_speed for stiffer grains",
                   100 * quality.largest_overlap, 100 * *description.stiffness.largest_overlap));
   return warnings;
 }

@@ -145,6 +145,8 @@ std::vector<FillDescription> read_fills(TomlTable& file, const dem_gpu::Scene& s
     FillDescription fill;
     fill.name = table.text("name", "fill_" + std::to_string(fills.size()));
     table.rename("fill \"" + fill.name + "\"");
+    for (const FillDescription& other : fills)
+      if (other.name == fill.name) table.refuse("name", "two fills are named \"" + fill.name + "\"; names must differ");
     fill.place = table.place() + ": " + table.title();
     fill.shapes = read_shapes(table, base_folder);
     fill.material = read_material_name(table, "material", scene.materials);

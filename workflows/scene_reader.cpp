@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "workflows/scene_reader.h"
 
-#include <fstream>
+#include <algorithm>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "catalog/input_error.h"
 #include "catalog/nearest_word.h"
+#include "workflows/atomic_file.h"
 #include "workflows/scene_sections.h"
 
 namespace workflows {
@@ -77,6 +77,7 @@ void read_contacts(TomlTable& file, Scene& scene) {
     }
   if (!defaults) file.refuse("section [contact.default] with restitution and friction is missing");
 
+  std::set<std::pair<std::size_t, std::size_t>> seen;
   scene.contact.assign(count, std::vector<dem_gpu::ContactProperties>(count, default_contact));
   for (TomlTable& table : tables) {
     if (table.name() == "default") continue;
@@ -87,6 +88,8 @@ void read_contacts(TomlTable& file, Scene& scene) {
         pairs.push_back(scene.materials[a].name + "-" + scene.materials[b].name);
         if (pairs.back() != table.name() || is_known) continue;
         is_known = true;
+        if (!seen.insert(std::minmax(a, b)).second)
+          table.refuse("this pair of materials is stated already, in the other order; keep one");
         scene.contact[a][b] = scene.contact[b][a] = read_contact(table, defaults);
       }
     if (!is_known)
@@ -137,12 +140,6 @@ void read_outflow(TomlTable& file, Scene& scene) {
   scene.outflow = outflow;
 }
 
-void refuse_equal_wall_names(const TomlTable& file, const Scene& scene) {
-  std::set<std::string> names;
-  for (const dem_gpu::Wall& wall : scene.walls)
-    if (!names.insert(wall.name).second) file.refuse("two walls are named \"" + wall.name + "\"; names must differ");
-}
-
 }  // namespace
 
 int read_material_name(TomlTable& table, std::string_view key, const std::vector<dem_gpu::Material>& materials) {
@@ -170,10 +167,12 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
   table.expect_only({"name", "gravity", "run", "material", "contact", "contact_law", "ledger", "motion", "wall",
                      "lifters", "outflow", "fill"});
   scene.name = table.text("name", file.stem().string());
-  if (scene.name.empty() || scene.name.find('/') != std::string::npos)
-    table.refuse("name", "name must not be empty or hold '/': the run's folder is named for it");
+  if (scene.name.empty() || scene.name == "." || scene.name == ".." || scene.name.find('/') != std::string::npos)
+    table.refuse("name", "name must not be empty, \".\" or \"..\" or hold '/': the run's folder is named for it");
   if (table.has("gravity")) scene.gravity = to_vec3(table.vector("gravity", Dimension::acceleration));
-  read_run(table.table("run"), scene.run);
+  const TomlTable run = table.table("run");
+  description.run_place = run.place();
+  read_run(run, scene.run);
   read_materials(table, scene);
   read_contacts(table, scene);
   read_contact_law(table.table("contact_law"), description);
@@ -182,18 +181,19 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
     ledger->finish();
   }
   read_walls(table, read_motions(table), scene);
-  refuse_equal_wall_names(table, scene);
   read_outflow(table, scene);
   description.fills = read_fills(table, scene, base_folder);
   return description;
 }
 
 SceneDescription read_scene(const std::filesystem::path& file, const std::filesystem::path& base_folder) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || std::filesystem::is_directory(file) || !(text << stream.rdbuf()))
-    throw catalog::InputError(file.string() + ": cannot be read as a scene file; expected a TOML file");
-  return read_scene_text(text.str(), file, base_folder.empty() ? file.parent_path() : base_folder);
+  if (!std::filesystem::exists(file))
+    throw catalog::InputError(file.string() + ": no such file; expected a scene file (TOML)");
+  std::optional<std::string> text = read_whole(file);
+  if (!text) throw catalog::InputError(file.string() + ": cannot be read; expected a scene file (TOML)");
+  if (text->find_first_not_of(" \t\r\n") == std::string::npos)
+    throw catalog::InputError(file.string() + ": is empty; start from workflows/scenes/hopper.toml");
+  return read_scene_text(std::move(*text), file, base_folder.empty() ? file.parent_path() : base_folder);
 }
 
 }  // namespace workflows

@@ -55,8 +55,9 @@ struct StiffnessChoice {
 /// A scene file as written: everything that needs neither catalogue nor engine.
 struct SceneDescription {
   std::filesystem::path file;
-  std::string text;      // the file's bytes
-  dem_gpu::Scene scene;  // without shapes and bodies; stiffness still to be worked out
+  std::string run_place;  // "scene.toml:4:1" of [run], for messages
+  std::string text;       // the file's bytes
+  dem_gpu::Scene scene;   // without shapes and bodies; stiffness still to be worked out
   StiffnessChoice stiffness;
   std::vector<FillDescription> fills;
 };

@@ -22,7 +22,7 @@ int read_material_name(TomlTable& table, std::string_view key, const std::vector
 using NamedMotions = std::map<std::string, dem_gpu::Motion>;
 NamedMotions read_motions(TomlTable& file);
 
-/// [[wall]] and [[lifters]], in this order.
+/// [[wall]] and [[lifters]], in this order. Refuses equal names.
 void read_walls(TomlTable& file, const NamedMotions& motions, dem_gpu::Scene& scene);
 
 /// [[fill]].

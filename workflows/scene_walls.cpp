@@ -118,6 +118,12 @@ decltype(Wall::geometry) read_geometry(TomlTable& table) {
   }
 }
 
+/// A name is what results are told apart by.
+void refuse_equal_name(const TomlTable& table, const std::string& name, const std::vector<Wall>& walls) {
+  if (std::any_of(walls.begin(), walls.end(), [&](const Wall& wall) { return wall.name == name; }))
+    table.refuse("name", "two walls are named \"" + name + "\"; names must differ");
+}
+
 Wall read_wall(TomlTable& table, const NamedMotions& motions, const std::vector<dem_gpu::Material>& materials) {
   Wall wall;
   wall.name = table.text("name");
@@ -186,6 +192,7 @@ void read_lifters(TomlTable& table, dem_gpu::Scene& scene) {
     std::snprintf(number, sizeof number, "_%02d", static_cast<int>(i));
     Wall lifter;
     lifter.name = prefix + number;
+    refuse_equal_name(table, lifter.name, scene.walls);
     const double angle = first + 2 * std::numbers::pi * double(i) / double(count);
     lifter.geometry = dem_gpu::VolumeObject{lifter_part(shell, section, angle, ends)};
     lifter.material =
@@ -206,7 +213,11 @@ NamedMotions read_motions(TomlTable& file) {
 }
 
 void read_walls(TomlTable& file, const NamedMotions& motions, dem_gpu::Scene& scene) {
-  for (TomlTable& table : file.tables("wall")) scene.walls.push_back(read_wall(table, motions, scene.materials));
+  for (TomlTable& table : file.tables("wall")) {
+    Wall wall = read_wall(table, motions, scene.materials);
+    refuse_equal_name(table, wall.name, scene.walls);
+    scene.walls.push_back(std::move(wall));
+  }
   for (TomlTable& table : file.tables("lifters")) read_lifters(table, scene);
 }
 

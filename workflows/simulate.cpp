@@ -52,7 +52,7 @@ std::variant<SimulateOptions, ExitStatus> parse_options(int argc, char** argv) {
       app.add_option("--resume", resumed, "run folder to go on with; default: the scene's own")->expected(0, 1);
   app.add_option("--end-time", end_time, "simulated time to stop at, such as \"2 s\"; instead of the scene's");
   app.add_flag("--dry-run", options.dry_run, "say what would be run; write nothing");
-  app.add_option("--threads", options.threads, "threads of the engine; default: all")->check(CLI::PositiveNumber);
+  app.add_option("--threads", options.threads, "threads of the engine; default: all")->check(CLI::Range(1, 1000000));
   app.add_flag("--json", options.json, "print run.json (with --dry-run the resolved scene) on stdout");
   app.set_version_flag("--version", tool_version());
   try {
@@ -83,19 +83,25 @@ fs::path default_folder(const SceneDescription& description) {
 }
 
 /// The scene of a run that is resumed: from its own copy, which the scene file, if given, must equal.
-SceneDescription read_resumed_scene(const SimulateOptions& options, const RunFolder& folder) {
+SceneDescription read_resumed_scene(const SimulateOptions& options, RunFolder& folder) {
   folder.require_run();
+  if (!options.dry_run) folder.lock();
   const nlohmann::ordered_json resolved = folder.read_json("resolved_scene.json");
-  if (!resolved.contains("scene_folder") || !resolved.contains("run"))
-    throw catalog::InputError((folder.path() / "resolved_scene.json").string() +
-                              ": missing or damaged, so the run cannot be resumed; start it again with another --out");
   if (!options.scene.empty() && read_whole(options.scene) != read_whole(folder.scene_file()))
     throw catalog::InputError(options.scene.string() + ": differs from the scene that " + folder.path().string() +
                               " was run with; resume with that folder alone, or start a new run with another --out");
-  SceneDescription description = read_scene(folder.scene_file(), fs::path(resolved["scene_folder"].get<std::string>()));
-  description.scene.name = resolved["name"].get<std::string>();
-  description.scene.run.end_time = resolved["run"]["end_time"].get<double>();
-  return description;
+  try {
+    SceneDescription description =
+        read_scene(folder.scene_file(), fs::path(resolved.at("scene_folder").get<std::string>()));
+    description.scene.name = resolved.at("name").get<std::string>();
+    description.scene.run.end_time = resolved.at("run").at("end_time").get<double>();
+    return description;
+  } catch (const nlohmann::json::exception&) {
+    throw catalog::InputError(
+        (folder.path() / "resolved_scene.json").string() +
+        ": missing or damaged (expected scene_folder, name and run.end_time), so the run cannot be resumed; start it "
+        "again with another --out");
+  }
 }
 
 void print_dry_run(const AssembledScene& assembled, const SceneDescription& description,
@@ -121,23 +127,53 @@ void start_log(const RunFolder& folder, const dem_gpu::Simulation& simulation, c
   folder.log("passes: " + passes);
 }
 
+/// The engine's own check, its message made to say which file.
+void check_scene(const AssembledScene& assembled, const SceneDescription& description) {
+  try {
+    dem_gpu::check(assembled.scene);
+  } catch (const catalog::InputError& error) {
+    const std::string what = error.what();
+    throw catalog::InputError((what.starts_with("run:") ? description.run_place : description.file.string()) + ": " +
+                              what);
+  }
+}
+
+double earlier_wall_seconds(const RunFolder& folder) {
+  const nlohmann::ordered_json summary = folder.read_json("run.json");
+  return summary.contains("wall_seconds") && summary["wall_seconds"].is_number() ? summary["wall_seconds"].get<double>()
+                                                                                 : 0;
+}
+
+/// Takes up the checkpoint; writes nothing unless there is something to run.
+void go_on(dem_gpu::Simulation& simulation, const RunFolder& folder, const RunSchedule& schedule) {
+  const std::string note = simulation.read_checkpoint(folder.path());
+  if (simulation.step() > schedule.end_step) {
+    char time[32];
+    std::snprintf(time, sizeof time, "%.6g", simulation.time());
+    throw catalog::InputError(folder.path().string() + ": is at " + time + " s already; give a later --end-time");
+  }
+  if (note.empty()) return;
+  std::fprintf(stderr, "simulate: %s\n", note.c_str());
+  folder.log(note);
+}
+
 int simulate(const SimulateOptions& options) {
   if (options.threads > 0) set_thread_count(options.threads);
 
   // The scene and its folder.
   std::optional<SceneDescription> read;
   if (!options.is_resumed || options.resumed_folder.empty()) read = read_scene(options.scene);
-  const RunFolder folder(!options.resumed_folder.empty() ? options.resumed_folder
-                         : !options.out.empty()          ? options.out
-                                                         : default_folder(*read));
+  RunFolder folder(!options.resumed_folder.empty() ? options.resumed_folder
+                   : !options.out.empty()          ? options.out
+                                                   : default_folder(*read));
   SceneDescription description = options.is_resumed ? read_resumed_scene(options, folder) : std::move(*read);
   if (!options.is_resumed && !options.dry_run) folder.refuse_if_used();
   if (options.end_time) description.scene.run.end_time = *options.end_time;
 
   // What runs.
   const AssembledScene assembled = assemble_scene(description);
-  dem_gpu::check(assembled.scene);
-  run_schedule(description, assembled.scene);
+  check_scene(assembled, description);
+  const RunSchedule schedule = run_schedule(description, assembled.scene);
   const fs::path scene_folder = fs::absolute(description.file).lexically_normal().parent_path();
   const nlohmann::ordered_json resolved = resolved_scene(assembled, description, scene_folder.string());
   if (options.dry_run) {
@@ -151,10 +187,10 @@ int simulate(const SimulateOptions& options) {
   RunPlan plan{description, assembled, folder, options.command};
   bool from_checkpoint = false;
   if (options.is_resumed) {
-    plan.earlier_wall_seconds = folder.read_json("run.json").value("wall_seconds", 0.0);
+    plan.earlier_wall_seconds = earlier_wall_seconds(folder);
     from_checkpoint = folder.has_checkpoint();
     if (from_checkpoint)
-      simulation.read_checkpoint(folder.path());
+      go_on(simulation, folder, schedule);
     else
       std::fprintf(stderr, "simulate: %s has no checkpoint yet; it starts again from time 0\n", folder.path().c_str());
     keep_end_time(folder, assembled.scene.run.end_time);

@@ -65,6 +65,8 @@ std::optional<double> parse_quantity(const std::string& text, Dimension dimensio
   std::string_view unit(rest, static_cast<std::size_t>(text.data() + text.size() - rest));
   while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
   while (!unit.empty() && unit.back() == ' ') unit.remove_suffix(1);
+  // A forgotten unit must not pass for metres; nothing is nothing in any.
+  if (unit.empty() && dimension != Dimension::ratio && number != 0) return std::nullopt;
   if (unit.empty()) return number;
   for (const auto& [name, factor] : units_of(dimension))
     if (name == unit) return number * factor;

@@ -2,6 +2,7 @@
 #include "dem_gpu/broad_phase/neighbour_list.h"
 
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 #include "dem_gpu/broad_phase/cell_grid.h"
@@ -191,10 +192,14 @@ void list_incidence(State& state, int body_count) {
   while (body + 1 < displacement.size() && std::isfinite(displacement[body])) ++body;
   const Vec3 x = state.bodies.position[body], v = state.bodies.velocity[body];
   const auto text = [](const Vec3& a) {
-    return "(" + std::to_string(a.x) + ", " + std::to_string(a.y) + ", " + std::to_string(a.z) + ")";
+    char components[64];
+    std::snprintf(components, sizeof components, "(%.6g, %.6g, %.6g)", double(a.x), double(a.y), double(a.z));
+    return std::string(components);
   };
-  throw std::runtime_error("step " + std::to_string(state.step) + ", time " + std::to_string(state.time(model)) +
-                           " s: body " + std::to_string(body) + " at " + text(x) + " m moves at " + text(v) +
+  char time[32];
+  std::snprintf(time, sizeof time, "%.6g", double(state.time(model)));
+  throw std::runtime_error("step " + std::to_string(state.step) + ", time " + time + " s: body " +
+                           std::to_string(body) + " at " + text(x) + " m moves at " + text(v) +
                            " m/s, more than half its radius in a step or not finite; use a shorter time step, or check "
                            "that no bodies overlap at the start");
 }

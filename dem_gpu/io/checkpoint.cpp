@@ -16,6 +16,12 @@ namespace {
 constexpr const char* kKind = "talus-checkpoint";
 constexpr int kVersion = 1;
 
+/// A whole checkpoint that does not fit the simulation: no reason to look at an earlier one.
+class ForeignCheckpoint : public catalog::InputError {
+ public:
+  using catalog::InputError::InputError;
+};
+
 /// Visits every column and account that a checkpoint holds, by name: one list serves writing and reading.
 template <class StateType, class Visitor>
 void visit_state(StateType& state, Visitor&& visit) {
@@ -171,10 +177,10 @@ void read_column(const io::Hdf5Reader& file, const std::string& name, T& column)
 void read_one(const std::filesystem::path& path, const Model& model, State& state) {
   const io::Hdf5Reader file(path, kKind, kVersion);
   if (file.integer_attribute("real_bytes") != static_cast<std::int64_t>(sizeof(Real)))
-    throw catalog::InputError(path.string() + ": written in another precision; resume with the build that wrote it");
+    throw ForeignCheckpoint(path.string() + ": written in another precision; resume with the build that wrote it");
   if (file.integer_attribute("scene") != fingerprint(model))
-    throw catalog::InputError(path.string() + ": belongs to another scene (bodies, walls, laws or time step differ); " +
-                              "resume with the scene it was written by");
+    throw ForeignCheckpoint(path.string() + ": belongs to another scene (bodies, walls, laws or time step differ); " +
+                            "resume with the scene it was written by");
   visit_state(state, [&](const std::string& name, auto& column) { read_column(file, name, column); });
   const auto ranges = file.read<std::int32_t>("contacts/ranges", 2);
   for (int kind = 0; kind < kContactKinds; ++kind)
@@ -228,14 +234,19 @@ void write_checkpoint_file(const std::filesystem::path& run_folder, const Model&
   std::filesystem::rename(next, path);
 }
 
-void read_checkpoint_file(const std::filesystem::path& run_folder, const Model& model, State& state) {
+std::string read_checkpoint_file(const std::filesystem::path& run_folder, const Model& model, State& state) {
   const std::filesystem::path path = run_folder / "checkpoint.h5", previous = run_folder / "checkpoint_previous.h5";
   try {
     read_one(path, model, state);
+    return "";
+  } catch (const ForeignCheckpoint&) {
+    throw;
   } catch (const catalog::InputError& error) {
     if (!std::filesystem::exists(previous)) throw;
     try {
       read_one(previous, model, state);
+      return std::string("checkpoint.h5 is ") + (std::filesystem::exists(path) ? "damaged (" : "missing (") +
+             error.what() + "); went on from checkpoint_previous.h5";
     } catch (const catalog::InputError&) {
       throw error;  // the fault of the last checkpoint is the one to tell
     }

@@ -198,12 +198,16 @@ TEST_F(Simulate, BadInputExitsWithThreeAndLeavesNothing) {
     EXPECT_FALSE(fs::exists(runs_));
   };
   expect_refused(with(drum_scene(), "friction = 0.5", "frictoin = 0.5"), "nearest known key: 'friction'");
-  expect_refused(with(drum_scene(), "end_time = \"40 ms\"", "end_time = \"40 ms\"\ntime_step = \"1 ms\""), "time step");
+  expect_refused(with(drum_scene(), "end_time = \"40 ms\"", "end_time = \"40 ms\"\ntime_step = \"1 ms\""),
+                 "drum.toml:4:1: run: time step");
   expect_refused(with(drum_scene(), "snapshot_every = \"10 ms\"", "snapshot_every = \"1 ns\""), "snapshot_every");
   expect_refused(
       with(drum_scene(), "box = {size = [\"10 mm\", \"12 mm\", \"14 mm\"]}", "shapes_from = \"no.talus\"\nparts = 2"),
       "no.talus");
+  expect_refused("", "is empty");
   EXPECT_EQ(run({(folder_ / "missing.toml").string()}), 3);
+  EXPECT_NE(error_.find("no such file"), std::string::npos) << error_;
+  EXPECT_EQ(run({scene_.string(), "--out", "/dev/null/run"}), 3);
   EXPECT_EQ(run({"--resume", folder_.path().string()}), 3);
   EXPECT_NE(error_.find("holds no run to resume"), std::string::npos) << error_;
 }
@@ -217,6 +221,60 @@ TEST_F(Simulate, AChangedSceneIsNotResumed) {
   test_support::write_bytes(run_ / "scene.toml", with(drum_scene(), "count = 12", "count = 11"));
   EXPECT_EQ(run({"--resume", run_.string()}), 3);
   EXPECT_NE(error_.find("another scene"), std::string::npos) << error_;
+}
+
+TEST_F(Simulate, TwoProcessesDoNotRunOneFolder) {
+  test_support::write_bytes(scene_, with(drum_scene(), "end_time = \"40 ms\"", "end_time = \"100 s\""));
+  const fs::path first_folder = folder_ / "first";
+  fs::create_directory(first_folder);
+  StartedProgram first(first_folder, {scene_.string()});
+  while (!fs::exists(run_ / "snapshots" / "snapshot_000001.h5"))
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  EXPECT_EQ(run({"--resume", run_.string()}), 3);
+  EXPECT_NE(error_.find("is being run by another process"), std::string::npos) << error_;
+  first.send(SIGINT);
+  EXPECT_EQ(first.exit_status(), 130) << first.error();
+  // Free again: past the lock, to the next thing wrong.
+  EXPECT_EQ(run({"--resume", run_.string(), "--end-time", "1 ms"}), 3);
+  EXPECT_NE(error_.find("give a later --end-time"), std::string::npos) << error_;
+}
+
+TEST_F(Simulate, EndTimesOutOfReachAreRefused) {
+  for (const char* time : {"1e300 s", "1e12 s", "1e-12 s"}) {
+    EXPECT_EQ(run({scene_.string(), "--end-time", time}), 3) << time;
+    EXPECT_NE(error_.find("run.end_time"), std::string::npos) << error_;
+  }
+  EXPECT_FALSE(fs::exists(runs_));
+  ASSERT_EQ(run({scene_.string()}), 0) << error_;
+  const std::string resolved = read_bytes(run_ / "resolved_scene.json");
+  EXPECT_EQ(run({"--resume", run_.string(), "--end-time", "20 ms"}), 3);
+  EXPECT_NE(error_.find("give a later --end-time"), std::string::npos) << error_;
+  EXPECT_EQ(read_bytes(run_ / "resolved_scene.json"), resolved);
+}
+
+// Checkpoints at 20 ms and 40 ms: with the second one lost, the run goes on from the first, and no output of the lost
+// part stays.
+TEST_F(Simulate, GoesOnFromThePreviousCheckpointAndSaysSo) {
+  ASSERT_EQ(run({scene_.string()}), 0) << error_;
+  const fs::path last = run_ / "snapshots" / "snapshot_000004.h5";
+  test_support::write_bytes(run_ / "checkpoint.h5", "half a checkpoint");
+  ASSERT_EQ(run({"--resume", run_.string(), "--end-time", "30 ms"}), 0) << error_;
+  EXPECT_NE(error_.find("went on from checkpoint_previous.h5"), std::string::npos) << error_;
+  EXPECT_NE(read_bytes(run_ / "run.log").find("went on from checkpoint_previous.h5"), std::string::npos);
+  EXPECT_FALSE(fs::exists(last));
+  EXPECT_TRUE(fs::exists(run_ / "snapshots" / "snapshot_000003.h5"));
+}
+
+TEST_F(Simulate, ADamagedResolvedSceneIsBadInput) {
+  ASSERT_EQ(run({scene_.string(), "--end-time", "5 ms"}), 0) << error_;
+  const nlohmann::json whole = json(run_ / "resolved_scene.json");
+  for (const char* key : {"name", "scene_folder", "run"}) {
+    nlohmann::json damaged = whole;
+    damaged[key] = 7;
+    test_support::write_bytes(run_ / "resolved_scene.json", damaged.dump());
+    EXPECT_EQ(run({"--resume", run_.string()}), 3) << key;
+    EXPECT_NE(error_.find("resolved_scene.json"), std::string::npos) << error_;
+  }
 }
 
 TEST_F(Simulate, UsageErrorsExitWithTwo) {

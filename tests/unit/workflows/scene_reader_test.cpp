@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -284,6 +285,30 @@ TEST(SceneReader, RefusesWallsOfOneName) {
                            "[[wall]]\nname = \"shell\"\ntype = \"plane\"\npoint = [0, 0, -1]\nnormal = [0, 0, 1]\n"
                            "material = \"steel\"\n";
   EXPECT_NE(refusal(text).find("two walls are named \"shell\""), std::string::npos) << refusal(text);
+  // At the second one's name: the fourth line from the end.
+  const auto lines = std::count(text.begin(), text.end(), '\n');
+  EXPECT_NE(refusal(text).find(":" + std::to_string(lines - 4) + ":"), std::string::npos) << refusal(text);
+}
+
+TEST(SceneReader, RefusesNamesThatCannotBeToldApart) {
+  const auto expect_refused = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(refusal(text).find(part), std::string::npos) << refusal(text);
+  };
+  expect_refused(with(drum_scene(), "name = \"balls\"", "name = \"blocks\""), "two fills are named \"blocks\"");
+  expect_refused(with(drum_scene(), "[contact_law]", "[contact.\"steel-rock\"]\nfriction = 0.2\n[contact_law]"),
+                 "stated already, in the other order");
+  expect_refused(with(drum_scene(), "[[lifters]]",
+                      "[[wall]]\nname = \"lifter_02\"\ntype = \"plane\"\npoint = [0, 0, -1]\nnormal = [0, 0, 1]\n"
+                      "material = \"steel\"\n[[lifters]]"),
+                 "two walls are named \"lifter_02\"");
+  for (const char* name : {".", "..", "a/b"})
+    expect_refused(with(drum_scene(), "name = \"drum\"", "name = \"" + std::string(name) + "\""), "name must not");
+}
+
+TEST(SceneReader, RefusesTextWithoutItsUnit) {
+  const std::string line = refusal(with(drum_scene(), "\"10 cm\"", "\"0.1\""));
+  EXPECT_NE(line.find("radius is \"0.1\"; expected a number in SI, or text ending in one of m,"), std::string::npos)
+      << line;
 }
 
 TEST(SceneReader, RefusesFilesThatAreNotScenes) {

@@ -26,8 +26,14 @@ TEST(Units, ValuesInSi) {
   EXPECT_DOUBLE_EQ(*parse_quantity("50 cm/s", Dimension::speed), 0.5);
 }
 
-TEST(Units, ABareNumberIsSiAndSpacesDoNotMatter) {
-  EXPECT_DOUBLE_EQ(*parse_quantity("0.25", Dimension::length), 0.25);
+TEST(Units, AForgottenUnitIsRefused) {
+  EXPECT_EQ(parse_quantity("0.25", Dimension::length), std::nullopt);
+  EXPECT_EQ(parse_quantity("5 ", Dimension::time), std::nullopt);
+  EXPECT_DOUBLE_EQ(*parse_quantity("0", Dimension::length), 0);
+  EXPECT_DOUBLE_EQ(*parse_quantity("0.25", Dimension::ratio), 0.25);
+}
+
+TEST(Units, SpacesDoNotMatter) {
   EXPECT_DOUBLE_EQ(*parse_quantity("12mm", Dimension::length), 0.012);
   EXPECT_DOUBLE_EQ(*parse_quantity("12   mm  ", Dimension::length), 0.012);
   EXPECT_DOUBLE_EQ(*parse_quantity("1e-3 m", Dimension::length), 1e-3);
