@@ -46,6 +46,9 @@ void declare_options(CLI::App& app, CommandLine& line) {
 catalog::ShapeCatalog open_existing(const std::string& path) {
   if (!std::filesystem::exists(path))
     throw catalog::InputError(path + ": no such catalogue; make one with talus digitize ... --into " + path);
+  if (std::filesystem::is_regular_file(path) && std::filesystem::file_size(path) == 0)
+    throw catalog::InputError(path +
+                              ": is an empty file, expected a catalogue; make one with talus digitize ... --into");
   return {path, catalog::ShapeCatalog::Access::read_write};
 }
 
@@ -76,6 +79,7 @@ int main(int argc, char** argv) {
   declare_options(app, line);
   try {
     app.parse(argc, argv);
+    line.batch.catalog = line.catalog;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? kDone : kUsage;
   }

@@ -95,9 +95,10 @@ DecomposeBatchResult decompose_shapes(catalog::ShapeCatalog& shapes, const Decom
                                       const std::function<void(const std::string& name, std::size_t of)>& about_to) {
   const std::vector<catalog::ShapeId> ids = shapes.select(options.select);
   if (ids.empty())
-    throw catalog::InputError(options.select.empty()
-                                  ? "the catalogue has no shapes; fill it with talus digitize ... --into"
-                                  : "--select \"" + options.select + "\" selects no shape; see talus catalog list");
+    throw catalog::InputError(options.catalog +
+                              (options.select.empty()
+                                   ? ": has no shapes; fill it with talus digitize ... --into"
+                                   : ": --select \"" + options.select + "\" selects no shape; see talus catalog list"));
   DecomposeBatchResult result;
   for (const catalog::ShapeId id : ids) {
     const std::string name = shapes.summary(id).name;

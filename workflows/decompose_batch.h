@@ -11,6 +11,7 @@
 namespace workflows {
 
 struct DecomposeBatchOptions {
+  std::string catalog = "the catalogue";  // its name in messages
   std::vector<int> part_counts{1, 2, 4, 8};
   std::string select;  // catalogue query; empty: every shape
   decomposition::DecompositionOptions quality;

@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "catalog/input_error.h"
@@ -163,6 +164,12 @@ catalog::ShapeCatalog open_catalog(const fs::path& path) {
   return {path, catalog::ShapeCatalog::Access::read_write};
 }
 
+/// A file that is there but may not be looked at is not missing.
+bool is_missing(const fs::path& scan) {
+  std::error_code error;
+  return fs::status(scan, error).type() == fs::file_type::not_found;
+}
+
 /// A reason up to its first semicolon, without the file's name before it.
 std::string first_reason(const Outcome& outcome, const fs::path& scan) {
   std::string text = outcome.reason;
@@ -183,7 +190,7 @@ class Batch {
         progress_("digitize", static_cast<int>(scans_.size())) {
     if (!line.truth_path.empty()) truths_ = shape_pipeline::read_truth(line.truth_path);
     // Without a scan to read no catalogue is made.
-    if (std::any_of(scans_.begin(), scans_.end(), [](const fs::path& scan) { return fs::exists(scan); }))
+    if (std::any_of(scans_.begin(), scans_.end(), [](const fs::path& scan) { return !is_missing(scan); }))
       catalog_.emplace(open_catalog(line.catalog_path));
   }
 
@@ -202,7 +209,7 @@ class Batch {
  private:
   /// Errors of the scan make an outcome; errors of the catalogue, such as a lock, are not the scan's and end the batch.
   Outcome process(const fs::path& scan, const std::string& name) {
-    if (!fs::exists(scan)) {
+    if (is_missing(scan)) {
       const std::string reason = scan.string() + ": no such file; check the path";
       progress_.note(reason);
       return {name, "missing", reason, {}};

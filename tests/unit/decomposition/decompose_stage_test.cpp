@@ -113,6 +113,17 @@ TEST(DecomposeStage, ExitStatusesAndJson) {
   EXPECT_EQ(run(catalog + " --no-such-option", folder), 2);
   EXPECT_EQ(run("'" + (folder / "none.talus").string() + "'", folder), 3);
   EXPECT_FALSE(std::filesystem::exists(folder / "none.talus"));
+  EXPECT_EQ(run(catalog + " --select \"volume > 1000\"", folder), 3);
+  EXPECT_NE(test_support::read_bytes(folder / "err").find("ore.talus: --select"), std::string::npos);
+}
+
+TEST(DecomposeStage, AFileOfAnotherKindStaysAsItIs) {
+  const TemporaryFolder folder;
+  for (const std::string& bytes : {std::string(), std::string("x"), std::string(5000, 'x')}) {
+    test_support::write_bytes(folder / "letter", bytes);
+    EXPECT_EQ(run("'" + (folder / "letter").string() + "'", folder), 3) << bytes.size();
+    EXPECT_EQ(test_support::read_bytes(folder / "letter"), bytes);
+  }
 }
 
 }  // namespace
