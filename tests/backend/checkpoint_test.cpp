@@ -170,4 +170,25 @@ TEST(Checkpoint, RefusesAnotherScene) {
   EXPECT_EQ(refusal([&] { Simulation(mixed_scene()).read_checkpoint(folder.path()); }), "accepted");
 }
 
+TEST(Checkpoint, FallsBackOnDamageOnlyAndTells) {
+  const TemporaryFolder folder;
+  Simulation simulation(mixed_scene());
+  simulation.advance(100);
+  simulation.write_checkpoint(folder.path());
+  Scene other_scene = mixed_scene();
+  other_scene.gravity.z = -1;
+  Simulation other(other_scene);
+  other.write_checkpoint(folder.path());
+  // The previous one would fit, but the last is whole and another scene's.
+  const std::string message = refusal([&] { Simulation(mixed_scene()).read_checkpoint(folder.path()); });
+  EXPECT_NE(message.find("another scene"), std::string::npos) << message;
+  EXPECT_EQ(Simulation(other_scene).read_checkpoint(folder.path()), "");
+  write_bytes(folder / "checkpoint.h5", "text");
+  Simulation resumed(mixed_scene());
+  const std::string note = resumed.read_checkpoint(folder.path());
+  EXPECT_EQ(note.rfind("checkpoint.h5 is damaged (", 0), 0u) << note;
+  EXPECT_NE(note.find("went on from checkpoint_previous.h5"), std::string::npos) << note;
+  EXPECT_EQ(resumed.step(), 100);
+}
+
 }  // namespace
