@@ -154,6 +154,24 @@ Json fill_summary(const FillReport& report, const FillDescription& fill, const S
   return json;
 }
 
+Json chain_summary(const ChainReport& report, const ChainDescription& chain, const Scene& scene) {
+  const ChainLayout& layout = chain.layout;
+  return {
+      {"name", chain.name},
+      {"link",
+       scene.shapes[static_cast<std::size_t>(scene.bodies[static_cast<std::size_t>(report.first_body)].shape)].name},
+      {"material", scene.materials[static_cast<std::size_t>(chain.material)].name},
+      {"first_body", report.first_body},
+      {"links", report.bodies},
+      {"mass", report.mass},
+      {"start", json_of(layout.start)},
+      {layout.is_closed ? "axis" : "direction", json_of(layout.direction)},
+      {"gap", layout.gap},
+      {"closed", layout.is_closed},
+      {"hold_first", layout.holds_first},
+      {"velocity", json_of(chain.velocity)}};
+}
+
 bool has_size_range(const FillDescription& fill) {
   return fill.size && fill.size->size.front() < fill.size->size.back();
 }
@@ -220,6 +238,9 @@ nlohmann::ordered_json resolved_scene(const AssembledScene& assembled, const Sce
   json["fills"] = Json::array();
   for (std::size_t i = 0; i < assembled.fills.size(); ++i)
     json["fills"].push_back(fill_summary(assembled.fills[i], description.fills[i], scene));
+  json["chains"] = Json::array();
+  for (std::size_t i = 0; i < assembled.chains.size(); ++i)
+    json["chains"].push_back(chain_summary(assembled.chains[i], description.chains[i], scene));
   json["walls"] = Json::array();
   for (const dem_gpu::Wall& wall : scene.walls) json["walls"].push_back(json_of(wall, scene));
   json["outflow"] = nullptr;
@@ -362,6 +383,8 @@ std::string scene_table(const AssembledScene& assembled) {
   for (std::size_t i = 0; i < assembled.fills.size(); ++i)
     table += formatted("  fill \"%s\": %d bodies, %.4g kg\n", assembled.fills[i].name.c_str(),
                        assembled.fills[i].bodies, assembled.fills[i].mass);
+  for (const ChainReport& chain : assembled.chains)
+    table += formatted("  chain \"%s\": %d links, %.4g kg\n", chain.name.c_str(), chain.bodies, chain.mass);
   if (polyhedral_stiffness(scene) > 0)
     table += formatted("  stiffness of polyhedra: %.4g N/m3\n", polyhedral_stiffness(scene));
   if (const auto* spring = std::get_if<dem_gpu::LinearSpring>(&scene.sphere_law); spring && spring->stiffness > 0)

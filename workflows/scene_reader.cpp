@@ -165,7 +165,7 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
   Scene& scene = description.scene;
   TomlTable table(root, file.string(), "");
   table.expect_only({"name", "gravity", "run", "material", "contact", "contact_law", "ledger", "motion", "wall",
-                     "lifters", "outflow", "fill"});
+                     "lifters", "outflow", "fill", "chain"});
   scene.name = table.text("name", file.stem().string());
   if (scene.name.empty() || scene.name == "." || scene.name == ".." || scene.name.find('/') != std::string::npos)
     table.refuse("name", "name must not be empty, \".\" or \"..\" or hold '/': the run's folder is named for it");
@@ -183,6 +183,9 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
   read_walls(table, read_motions(table), scene);
   read_outflow(table, scene);
   description.fills = read_fills(table, scene, base_folder);
+  description.chains = read_chains(table, scene, base_folder);
+  if (description.fills.empty() && description.chains.empty())
+    table.refuse("nothing to simulate: add a [[fill]] or [[chain]] section");
   return description;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dem_gpu/energy/energy_watch.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <stdexcept>
 
@@ -59,7 +60,7 @@ std::string step_place(const Model& model, const State& state) {
 void refuse_created_energy(const Model& model, const State& state) {
   if (!model.features.has_ledger) return;
   const EnergyLedger ledger = make_ledger(model, state);
-  const double limit = kExplosion * ledger.throughput + kLeastEnergy * energy_of_a_small_fall(model);
+  const double limit = kExplosion * std::max(0.0, ledger.throughput) + kLeastEnergy * energy_of_a_small_fall(model);
   if (!(-ledger.imbalance() > limit && ledger.kinetic > limit)) return;
   const std::size_t body = fastest_body(state);
   char energies[160];

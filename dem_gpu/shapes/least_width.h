@@ -6,8 +6,8 @@
 namespace dem_gpu {
 
 /// Least distance between two parallel planes that hold the shape, over the normals of its outer faces; the diameter of
-/// a sphere [m] at scale 1. The true least width may lie between two edges; it is smaller by a factor of at most
-/// sqrt(2/3) (regular tetrahedron).
+/// a sphere [m] at scale 1. The true least width may lie between two edges; it is smaller, sqrt(3/4) of
+/// this for a regular tetrahedron.
 Real least_width(const Shape& shape);
 
 }  // namespace dem_gpu

@@ -13,6 +13,10 @@
 namespace dem_gpu {
 namespace {
 
+/// Shallower overlaps are rounding of faces that touch, and hold no energy to speak of: its share of a contact's goes
+/// with the square of this. In least widths.
+constexpr Real kLeastDepth = Real(1e-9);
+
 /// Two bodies, or a body and a wall, of the scene.
 struct StartPair {
   ContactKind kind;
@@ -103,16 +107,17 @@ Real stored_energy(const Scene& scene, const StartPair& pair, const Vec3& force,
     const Real middle = (touching + apart) / 2;
     (norm(force_at(scene, pair, middle * away)) > 0 ? touching : apart) = middle;
   }
-  // Gauss-Legendre, 4 points on each half: exact for the powers of the depth that flat contacts, edges and corners
-  // make.
+  // Gauss-Legendre, 4 points a panel. A way out that is long against the depth crosses more than one contact.
   constexpr std::array<Real, 4> kPoint{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
                                        0.8611363115940526};
   constexpr std::array<Real, 4> kWeight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
+  constexpr Real kFewestPanels = 8, kMostPanels = 64;
+  const int panels = static_cast<int>(std::clamp(4 * apart / depth, kFewestPanels, kMostPanels));
   Real work = 0;
-  for (int half = 0; half < 2; ++half)
+  for (int panel = 0; panel < panels; ++panel)
     for (std::size_t i = 0; i < kPoint.size(); ++i) {
-      const Real place = apart * (half + (1 + kPoint[i]) / 2) / 2;
-      work += kWeight[i] * apart / 4 * dot(force_at(scene, pair, place * away), away);
+      const Real place = apart * (panel + (1 + kPoint[i]) / 2) / panels;
+      work += kWeight[i] * apart / (2 * panels) * dot(force_at(scene, pair, place * away), away);
     }
   return work;
 }
@@ -160,10 +165,11 @@ Real book_start_energy(const Model& model, State& state) {
   const auto keys = to_host(state.contacts.key);
   const auto depth = to_host(state.contacts.depth);
   const auto force = to_host(state.contacts.force);
+  const auto width = to_host(model.bodies.least_width);
   auto stored = to_host(state.contacts.elastic_work);
   Real sum = 0;
   for (std::size_t c = 0; c < keys.size(); ++c) {
-    if (!(depth[c] > 0)) continue;
+    if (!(depth[c] > kLeastDepth * width[key_body_a(keys[c])])) continue;
     stored[c] = stored_energy(model.scene, pair_of(keys[c]), force[c], depth[c]);
     sum += stored[c];
   }
