@@ -227,6 +227,7 @@ class NeighbourList : public Pass {
     const bool is_worn = 2 * moved + state.walls.largest_displacement(state.listed_time, time) > model.skin;
     if (!is_worn && !state.list_is_stale) return;
     refuse_created_energy(model, state);
+    refuse_pushed_through(model, state);
     build_neighbour_list(model, state);
   }
 };

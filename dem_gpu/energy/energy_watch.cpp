@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "dem_gpu/core/parallel.h"
 #include "dem_gpu/energy/energy.h"
 
 namespace dem_gpu {
@@ -32,6 +33,12 @@ std::size_t fastest_body(const State& state) {
   return fastest;
 }
 
+/// Side b of a contact.
+std::string partner_name(const Model& model, ContactKey key) {
+  const int b = key_body_b(key);
+  return is_wall_kind(key_kind(key)) ? "wall '" + model.scene.walls[b].name + "'" : "body " + std::to_string(b);
+}
+
 /// "; its deepest contact is with body 7" or wall.
 std::string deepest_partner(const Model& model, const State& state, int body) {
   const auto keys = to_host(state.contacts.key);
@@ -43,7 +50,7 @@ std::string deepest_partner(const Model& model, const State& state, int body) {
     const bool is_wall = is_wall_kind(key_kind(keys[c]));
     if ((a != body && (is_wall || b != body)) || depth[c] <= deepest) continue;
     deepest = depth[c];
-    partner = is_wall ? "wall '" + model.scene.walls[b].name + "'" : "body " + std::to_string(a == body ? b : a);
+    partner = is_wall || a == body ? partner_name(model, keys[c]) : "body " + std::to_string(a);
   }
   return partner.empty() ? "" : "; its deepest contact is with " + partner;
 }
@@ -70,6 +77,21 @@ void refuse_created_energy(const Model& model, const State& state) {
                            deepest_partner(model, state, static_cast<int>(body)) +
                            ". Use a shorter time step or more steps per contact, and check that no bodies overlap at "
                            "the start");
+}
+
+void refuse_pushed_through(const Model& model, const State& state) {
+  // In diameters of the smaller body. A field pushes out the nearest way: from here on that is the far side.
+  constexpr Real kThrough = 1;
+  if (max_of(state.contacts.peak_overlap, Real(0)) < kThrough) return;
+  const auto overlap = to_host(state.contacts.peak_overlap);
+  const auto c = static_cast<std::size_t>(std::max_element(overlap.begin(), overlap.end()) - overlap.begin());
+  const ContactKey key = state.contacts.key[c];
+  char depth[48];
+  std::snprintf(depth, sizeof depth, "%.3g diameters of the smaller", double(overlap[c]));
+  throw std::runtime_error(step_place(model, state) + "body " + std::to_string(key_body_a(key)) + " and " +
+                           partner_name(model, key) + " have sunk into one another by " + depth +
+                           ", and been pushed through; use stiffer contacts (a smaller largest_overlap or a higher "
+                           "at_speed), or see what presses them together");
 }
 
 }  // namespace dem_gpu
