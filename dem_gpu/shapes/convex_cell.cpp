@@ -8,8 +8,6 @@
 namespace dem_gpu {
 namespace {
 
-Real depth_of(const HalfSpace& plane, const Vec3& x) { return plane.offset - dot(plane.normal, x); }
-
 void add_distinct(std::vector<Vec3>& points, const Vec3& point, Real tolerance) {
   for (const Vec3& known : points)
     if (norm(known - point) <= tolerance) return;
@@ -45,14 +43,14 @@ ConvexCell clipped(const ConvexCell& cell, const HalfSpace& plane, Real toleranc
   Real least = std::numeric_limits<Real>::max(), largest = -least;
   for (const std::vector<Vec3>& face : cell)
     for (const Vec3& corner : face) {
-      const Real depth = depth_of(plane, corner);
+      const Real depth = depth_below(plane, corner);
       least = std::min(least, depth);
       largest = std::max(largest, depth);
     }
   if (!(largest > tolerance)) return {};
   if (least >= -tolerance) return cell;
   const auto depth_at = [&](const Vec3& x) {
-    const Real depth = depth_of(plane, x);
+    const Real depth = depth_below(plane, x);
     return std::abs(depth) <= tolerance ? 0 : depth;
   };
   ConvexCell kept;

@@ -25,7 +25,7 @@ std::vector<Vec3> corners_of(const catalog::ConvexPart& part) {
 
 bool lies_behind(const std::vector<Vec3>& corners, const HalfSpace& plane, Real size) {
   return std::all_of(corners.begin(), corners.end(),
-                     [&](const Vec3& corner) { return depth_under(plane, corner) >= -1e-9 * size; });
+                     [&](const Vec3& corner) { return depth_below(plane, corner) >= -1e-9 * size; });
 }
 
 /// depth below a - depth below b, as the depth below one plane.
@@ -67,7 +67,7 @@ class PartWriter {
     Real bound = -std::numeric_limits<Real>::max();
     for (const HalfSpace& plane : planes) {
       Real least = std::numeric_limits<Real>::max();
-      for (const Vec3& corner : corners_) least = std::min(least, depth_under(plane, corner));
+      for (const Vec3& corner : corners_) least = std::min(least, depth_below(plane, corner));
       bound = std::max(bound, least);
     }
     return bound;
@@ -76,7 +76,7 @@ class PartWriter {
   /// depth below a >= depth below b all over the part.
   bool is_deeper(const HalfSpace& a, const HalfSpace& b) const {
     return std::all_of(corners_.begin(), corners_.end(), [&](const Vec3& corner) {
-      return depth_under(a, corner) >= depth_under(b, corner) - kOnPlane * size_;
+      return depth_below(a, corner) >= depth_below(b, corner) - kOnPlane * size_;
     });
   }
 
@@ -110,7 +110,7 @@ class PartWriter {
         const Real depth = greatest_depth(*term, point);
         if (depth < least_depth) least_depth = depth, least = term;
       }
-      if (!least || least_depth > depth_under(limit, point)) return false;
+      if (!least || least_depth > depth_below(limit, point)) return false;
       for (const HalfSpace& plane : *least) {
         ConvexCell beyond = clipped(cell, difference(plane, limit), kOnPlane * size_);
         if (beyond.empty()) continue;

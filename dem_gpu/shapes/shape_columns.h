@@ -11,11 +11,12 @@
 
 namespace dem_gpu {
 
-/// Half-space boundary: inside where dot(normal, x) <= offset. Depth below it is offset - dot(normal, x).
+/// Half-space boundary: inside where dot(normal, x) <= offset.
 struct HalfSpace {
   Vec3 normal;
   Real offset = 0;
 };
+TALUS_HD inline Real depth_below(const HalfSpace& plane, const Vec3& x) { return plane.offset - dot(plane.normal, x); }
 
 struct PartRange {
   int first_vertex = 0, vertex_count = 0;

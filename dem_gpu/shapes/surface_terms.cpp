@@ -55,7 +55,7 @@ bool share_an_edge(const OuterPolygon& g, const OuterPolygon& j, Real tolerance)
 /// True if no corner lies deeper below the plane than the tolerance.
 bool lies_in_front(const OuterPolygon& polygon, const HalfSpace& plane, Real tolerance) {
   return std::all_of(polygon.corners.begin(), polygon.corners.end(),
-                     [&](const Vec3& corner) { return depth_under(plane, corner) <= tolerance; });
+                     [&](const Vec3& corner) { return depth_below(plane, corner) <= tolerance; });
 }
 
 /// Bounding boxes tell most pairs apart.
@@ -133,7 +133,7 @@ bool is_same_plane(const HalfSpace& a, const HalfSpace& b, Real size) {
 
 Real greatest_depth(const GreatestDepth& planes, const Vec3& x) {
   Real greatest = -std::numeric_limits<Real>::max();
-  for (const HalfSpace& plane : planes) greatest = std::max(greatest, depth_under(plane, x));
+  for (const HalfSpace& plane : planes) greatest = std::max(greatest, depth_below(plane, x));
   return greatest;
 }
 

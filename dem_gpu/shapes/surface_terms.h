@@ -33,8 +33,6 @@ std::vector<SurfaceTerm> surface_terms(const std::vector<catalog::ConvexPart>& p
 
 bool is_same_plane(const HalfSpace& a, const HalfSpace& b, Real size);
 
-/// Depth below a plane, offset - dot(normal, x) [m].
-inline Real depth_under(const HalfSpace& plane, const Vec3& x) { return plane.offset - dot(plane.normal, x); }
 Real greatest_depth(const GreatestDepth& planes, const Vec3& x);
 
 }  // namespace dem_gpu

@@ -25,7 +25,7 @@ struct Body {
 
   Real depth_in(std::size_t part, const Vec3& x, Real cap = kCap) const {
     Real least = cap;
-    for (const auto& plane : fields[part].planes) least = std::min(least, dem_gpu::depth_under(plane, x));
+    for (const auto& plane : fields[part].planes) least = std::min(least, dem_gpu::depth_below(plane, x));
     for (const auto& term : fields[part].greatest) least = std::min(least, dem_gpu::greatest_depth(term, x));
     return least;
   }
