@@ -310,7 +310,7 @@ CaseResult measure_exponent(const Attitude& attitude, const NamedLaw& law) {
   const double slope = std::log(curve.y[last] / curve.y[0]) / std::log(curve.x[last] / curve.x[0]);
   return {{{"n in F ~ depth^n", slope, "-", {}, ""},
            {"n, distance from that of the linear law", std::abs(slope - attitude.exponent), "-",
-        law.name == "depth" ? std::optional<Goal>(at_most(0.02)) : std::nullopt, ""}},
+            law.name == "depth" ? std::optional<Goal>(at_most(0.02)) : std::nullopt, ""}},
           {curve}};
 }
 
