@@ -174,8 +174,8 @@ height = "-5 cm"
 }
 
 TEST(SceneReader, ReadsHardeningAndWhereTheOverlapIsMeant) {
-  const SceneDescription description =
-      read(with(drum_scene(), "at_speed = \"1 m/s\"", "at_speed = \"1 m/s\"\noverlap_at = \"corner\"\nhardening = \"2 %\""));
+  const SceneDescription description = read(
+      with(drum_scene(), "at_speed = \"1 m/s\"", "at_speed = \"1 m/s\"\noverlap_at = \"corner\"\nhardening = \"2 %\""));
   const auto& law = std::get<dem_gpu::HardeningDepthPotential>(description.scene.polyhedral_law);
   EXPECT_DOUBLE_EQ(law.hardening, 0.02);
   EXPECT_DOUBLE_EQ(law.depth_cap, dem_gpu::DepthPotential{}.depth_cap);
@@ -249,7 +249,8 @@ const BadScene kBadScenes[] = {
     {"largest_overlap = \"3 %\"\nat_speed = \"1 m/s\"", "", "[contact_law]", "how stiff contacts are"},
     {"at_speed = \"1 m/s\"", "at_speed = \"1 m/s\"\nhardening = 0", "0\n\n[motion.drum]", "it must be more than 0"},
     {"at_speed = \"1 m/s\"", "at_speed = \"1 m/s\"\noverlap_at = \"edge\"", "\"edge\"", "\"face\", \"corner\""},
-    {"polyhedra = \"depth_potential\"", "polyhedra = \"volume\"\nhardening = \"3 %\"", "hardening", "unknown key 'hardening'"},
+    {"polyhedra = \"depth_potential\"", "polyhedra = \"volume\"\nhardening = \"3 %\"", "hardening",
+     "unknown key 'hardening'"},
     // wrong types
     {"end_time = \"40 ms\"", "end_time = true", "true",
      "end_time is true or false; expected a number in SI, or text ending in one of s, ms"},
