@@ -47,7 +47,7 @@ struct PolyhedronGeometry {
   using Partner = PartnerKind;
   Law law;
 
-  TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic) const {
+  TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic, NoPatch&) const {
     const Pose pose_a = scene.pose(a);
     typename IntegralsOf<Law>::Type integrals;
     SeparatingPlane* separating = scene.contacts.separating + scene.contacts.cache_begin[c];

@@ -17,7 +17,7 @@ struct PolyhedronWallGeometry {
   using Partner = WallPartner;
   Law law;
 
-  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic) const {
+  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic, NoPatch&) const {
     const WallRecord& wall = scene.walls[b];
     const Pose pose = scene.pose(a);
     if (wall_field(wall, pose.position).depth + scene.bodies.bounding_radius[a] <= 0) return false;
@@ -33,6 +33,7 @@ struct PolyhedronWallGeometry {
 
 std::unique_ptr<Pass> make_polyhedron_wall_contacts_pass(const Scene& scene) {
   return make_contact_pass("polyhedron_wall_contacts", ContactKind::polyhedron_wall, scene, scene.polyhedral_law,
+                           polyhedron_friction(scene),
                            [](const auto& law) { return PolyhedronWallGeometry<std::decay_t<decltype(law)>>{law}; });
 }
 
