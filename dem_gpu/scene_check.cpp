@@ -87,8 +87,7 @@ Real mass_of(const Scene& scene, const Body& body) {
 }
 
 Real stiffness_per_area(const PolyhedralLaw& law) {
-  if (const auto* depth = std::get_if<DepthPotential>(&law)) return 2 * depth->stiffness;
-  return std::get<OverlapVolume>(law).stiffness;
+  return std::visit([](const auto& chosen) { return chosen.stiffness_per_area(); }, law);
 }
 
 /// Tangent stiffness of a sphere contact pressed in by 2 % of the radius [N/m].

@@ -117,6 +117,7 @@ struct CarryHistory {
     }
     if (features.has_friction) to.tangential_displacement[c] = from.tangential_displacement[old];
     if (features.has_friction_couples) to.turning_displacement[c] = from.turning_displacement[old];
+    if (features.has_friction && features.has_polyhedra) to.spring_normal[c] = from.spring_normal[old];
     if (features.has_ledger) {
       to.elastic_work[c] = from.elastic_work[old];
       to.tangential_energy[c] = from.tangential_energy[old];

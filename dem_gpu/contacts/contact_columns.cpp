@@ -25,6 +25,7 @@ ContactView view(ContactColumns& c) {
           pointer(c.separating),
           pointer(c.tangential_displacement),
           pointer(c.turning_displacement),
+          pointer(c.spring_normal),
           pointer(c.elastic_work),
           pointer(c.tangential_energy),
           pointer(c.loss_normal),
@@ -52,6 +53,7 @@ void resize_columns(ContactColumns& columns, int count, const ContactFeatures& f
   reset(columns.cache_begin, features.has_polyhedra ? count + 1 : 0);
   reset(columns.tangential_displacement, features.has_friction ? count : 0);
   reset(columns.turning_displacement, features.has_friction_couples ? count : 0);
+  reset(columns.spring_normal, features.has_friction && features.has_polyhedra ? count : 0);
   const int ledger = features.has_ledger ? count : 0;
   for (DeviceVector<Real>* column : {&columns.elastic_work, &columns.tangential_energy, &columns.loss_normal,
                                      &columns.loss_shear, &columns.wall_work})

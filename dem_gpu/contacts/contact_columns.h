@@ -52,6 +52,9 @@ struct ContactColumns {
   // With friction that resists turning.
   DeviceVector<Vec3> turning_displacement;  // of the rotational spring: lever x angle, world frame [m]
 
+  // With friction of polyhedra.
+  DeviceVector<Vec3> spring_normal;  // contact normal that the springs last followed, zero if new
+
   // With a ledger.
   DeviceVector<Real> elastic_work;           // recoverable, done against the elastic normal force since touch [J]
   DeviceVector<Real> tangential_energy;      // in the tangential spring [J]
@@ -84,6 +87,7 @@ struct ContactView {
   SeparatingPlane* separating;
   Vec3* tangential_displacement;
   Vec3* turning_displacement;
+  Vec3* spring_normal;
   Real* elastic_work;
   Real* tangential_energy;
   Real* loss_normal;

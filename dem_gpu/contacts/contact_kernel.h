@@ -10,6 +10,7 @@
 #include "dem_gpu/bodies/model_state.h"
 #include "dem_gpu/contacts/contact_response.h"
 #include "dem_gpu/contacts/friction/no_friction.h"
+#include "dem_gpu/contacts/friction/patch_friction.h"
 #include "dem_gpu/contacts/friction/tangential_spring.h"
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/core/pass.h"
@@ -117,9 +118,9 @@ inline std::variant<NoFriction, SpringFriction> sphere_friction(const Scene& sce
   return SpringFriction{scene.friction->tangential_stiffness_ratio};
 }
 /// Friction of contacts between polyhedra, and with walls.
-inline std::variant<NoFriction, SpringFriction> polyhedron_friction(const Scene& scene) {
+inline std::variant<NoFriction, PatchFriction> polyhedron_friction(const Scene& scene) {
   if (!scene.friction) return NoFriction{};
-  return SpringFriction{scene.friction->tangential_stiffness_ratio};
+  return PatchFriction{scene.friction->tangential_stiffness_ratio};
 }
 inline RecordPolicy record_policy(const Scene& scene) {
   if (!scene.energy_ledger) return NoWorkRecord{};

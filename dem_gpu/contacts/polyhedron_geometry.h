@@ -7,15 +7,15 @@
 
 namespace dem_gpu {
 
-template <class Law>
+template <class Law, class Sums = NoPatchSums>
 struct IntegralsOf;
-template <>
-struct IntegralsOf<DepthPotential> {
-  using Type = DepthIntegrals;
+template <class Sums>
+struct IntegralsOf<DepthPotential, Sums> {
+  using Type = BasicDepthIntegrals<Sums>;
 };
-template <>
-struct IntegralsOf<OverlapVolume> {
-  using Type = VolumeIntegrals;
+template <class Sums>
+struct IntegralsOf<OverlapVolume, Sums> {
+  using Type = BasicVolumeIntegrals<Sums>;
 };
 
 /// Sums a law's integrals over all pairs of parts of two polyhedral bodies. `separating`: the contact's cache, one
@@ -47,9 +47,10 @@ struct PolyhedronGeometry {
   using Partner = PartnerKind;
   Law law;
 
-  TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic, NoPatch&) const {
+  template <class Patch>
+  TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic, Patch& patch) const {
     const Pose pose_a = scene.pose(a);
-    typename IntegralsOf<Law>::Type integrals;
+    typename IntegralsOf<Law, PatchSumsFor<Patch>>::Type integrals;
     SeparatingPlane* separating = scene.contacts.separating + scene.contacts.cache_begin[c];
     bool is_whole = true;
     if constexpr (Partner::kIsWall) {
@@ -64,7 +65,9 @@ struct PolyhedronGeometry {
                                   separating, integrals);
     }
     if (!is_whole) scene.contacts.is_truncated[c] = 1;
-    return integrals.to_contact(law, pose_a, elastic);
+    if (!integrals.to_contact(law, pose_a, elastic)) return false;
+    if constexpr (integrals.kHasPatch) integrals.to_patch(law, pose_a, elastic, patch);
+    return true;
   }
 };
 

@@ -6,26 +6,30 @@
 namespace dem_gpu {
 namespace {
 
-/// Stiffness per area of a wall's field so that a flat face meets a wall as stiffly as another flat face.
-TALUS_HD Real wall_stiffness(const DepthPotential& law) { return 2 * law.stiffness; }
-/// F = k V n on a flat wall: the integral of the depth over the surface inside is the overlap volume.
-TALUS_HD Real wall_stiffness(const OverlapVolume& law) { return law.stiffness; }
-
 /// Polyhedron against an analytic wall.
 template <class Law>
 struct PolyhedronWallGeometry {
   using Partner = WallPartner;
   Law law;
 
-  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic, NoPatch&) const {
+  template <class Patch>
+  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic, Patch& patch) const {
     const WallRecord& wall = scene.walls[b];
     const Pose pose = scene.pose(a);
     if (wall_field(wall, pose.position).depth + scene.bodies.bounding_radius[a] <= 0) return false;
-    WallIntegrals integrals;
+    BasicWallIntegrals<WallPatchSumsFor<Patch>> integrals;
+    if constexpr (integrals.kHasPatch) {
+      integrals.patch.wall = &wall;
+      integrals.patch.centre = pose.position;
+    }
     const ShapeRange& shape = scene.shapes.shapes[scene.bodies.shape[a]];
     for (int p = 0; p < shape.part_count; ++p)
       integrate_part_in_wall(part_view(scene.shapes, shape.first_part + p), pose, wall, integrals);
-    return integrals.to_contact(wall_stiffness(law), pose.position, elastic);
+    // A flat face meets a wall as stiffly as another flat face. With the volume law too: the integral of the depth over
+    // the surface inside a flat wall is the overlap volume.
+    if (!integrals.to_contact(law.stiffness_per_area(), pose.position, elastic)) return false;
+    if constexpr (integrals.kHasPatch) integrals.to_patch(law.stiffness_per_area(), patch);
+    return true;
   }
 };
 

@@ -49,6 +49,7 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("contacts/separating", c.separating);
   visit("contacts/tangential_displacement", c.tangential_displacement);
   visit("contacts/turning_displacement", c.turning_displacement);
+  visit("contacts/spring_normal", c.spring_normal);
   visit("contacts/elastic_work", c.elastic_work);
   visit("contacts/tangential_energy", c.tangential_energy);
   visit("contacts/loss_normal", c.loss_normal);

@@ -7,11 +7,14 @@
 
 #include "dem_gpu/contacts/elastic_contact.h"
 #include "dem_gpu/narrow_phase/part_overlap.h"
+#include "dem_gpu/narrow_phase/patch_sums.h"
 
 namespace dem_gpu {
 
 /// Integrals of a depth field over one polygon, in the polygon's frame.
 struct PolygonDepth {
+  static constexpr bool kHasPatch = false;
+
   Real depth = 0;     // integral of depth dA [m3]
   Vec3 depth_moment;  // integral of x depth dA [m4]
   Vec3 descent;       // integral of minus the depth's gradient dA [m2]
@@ -19,9 +22,18 @@ struct PolygonDepth {
   Real largest = 0;   // largest depth at a corner [m]
 };
 
+/// With what friction needs.
+struct PolygonPatchDepth : PolygonDepth {
+  static constexpr bool kHasPatch = true;
+
+  Real aligned = 0;        // the share of depth dA that meets the field at right angles [m3]
+  Real second_moment = 0;  // integral of depth |x|^2 dA [m5]
+};
+
 /// Adds a polygon on which the depth is linear: closed form over the triangles of its fan.
-TALUS_HD inline void add_linear_depth(const Polygon& polygon, const HalfSpace& plane, const Vec3& normal,
-                                      PolygonDepth& sum) {
+template <class Sum>
+TALUS_HD void add_linear_depth(const Polygon& polygon, const HalfSpace& plane, const Vec3& normal, Sum& sum) {
+  const Real depth_before = sum.depth;
   const Vec3 a = polygon.corner[0];
   const Real depth_a = depth_below(plane, a);
   Vec3 b = polygon.corner[1];
@@ -37,17 +49,20 @@ TALUS_HD inline void add_linear_depth(const Polygon& polygon, const HalfSpace& p
     sum.depth += area * total / 3;
     sum.depth_moment += (area / 12) * (depth_a * a + depth_b * b + depth_c * corner + total * (a + b + corner));
     sum.largest = std::max(sum.largest, depth_c);
+    if constexpr (Sum::kHasPatch)
+      sum.second_moment += second_moment_of_triangle(area, a, b, corner, depth_a, depth_b, depth_c);
     b = corner;
     depth_b = depth_c;
   }
+  if constexpr (Sum::kHasPatch) sum.aligned += aligned_share(-dot(normal, plane.normal)) * (sum.depth - depth_before);
 }
 
 /// Integrates the least depth below `planes` over a polygon: one closed form where one plane is least at all corners,
 /// else piece by piece over the cells in which each plane is the least. A piece may be cut by equal planes; the lower
 /// index owns a tie.
-TALUS_HD inline PolygonDepth integrate_depth(const Polygon& polygon, const HalfSpace* planes, int plane_count,
-                                             const Vec3& normal) {
-  PolygonDepth sum;
+template <class Sum>
+TALUS_HD Sum integrate_depth(const Polygon& polygon, const HalfSpace* planes, int plane_count, const Vec3& normal) {
+  Sum sum;
   // A plane is no candidate if another one is below it at every corner: it suffices to compare with the plane whose
   // largest depth is least.
   constexpr int kLargest = NearDepthPlanes::kLargest;
@@ -107,15 +122,20 @@ TALUS_HD inline PolygonDepth integrate_depth(const Polygon& polygon, const HalfS
 ///   force = integral over (b's surface in a) of depth_a n_b dA - integral over (a's surface in b) of depth_b n_a dA
 /// and the moment likewise with x cross n. All faces of the parts enter: the two sides of a cut cancel where they meet,
 /// and where they do not (a ledge) the bare strip counts, so the force is the gradient of the parts' energy whatever
-/// the cut. Only outer faces weigh in the contact point and the depth.
-struct DepthIntegrals {
+/// the cut. Only outer faces weigh in the contact point, the depth and the patch
+/// sums (PatchSums where there is friction, else NoPatchSums).
+template <class Sums>
+struct BasicDepthIntegrals {
   static constexpr bool kNeedsInnerFaces = true;
   static constexpr bool kNeedsDepthPlanes = true;
+  static constexpr bool kHasPatch = std::is_same_v<Sums, PatchSums>;
+  using PolygonSum = std::conditional_t<kHasPatch, PolygonPatchDepth, PolygonDepth>;
 
   Vec3 force;           // [m3]
   Vec3 moment;          // [m4]
   Real weight = 0;      // integral of depth dA over both surfaces [m3]
   Vec3 weighted_point;  // integral of x depth dA [m4]
+  Sums patch;
 
   /// How the force changes when the other body moves, from the fields of one body: tangent = integral of minus gradient
   /// (depth) times n^T dA, and what goes with it.
@@ -145,20 +165,29 @@ struct DepthIntegrals {
   TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, bool is_outer, const PartView& a,
                               const FrameChange& b_to_a) {
     const Vec3 normal = b_to_a.direction(plane_b.normal);
-    const PolygonDepth sum = integrate_depth(polygon, a.depth_planes, a.depth_plane_count, normal);
+    const auto sum = integrate_depth<PolygonSum>(polygon, a.depth_planes, a.depth_plane_count, normal);
     add(sum.depth, sum.depth_moment, normal, is_outer);
     field_a.add(sum.descent, sum.area * normal, normal, is_outer ? sum.largest : 0);
+    if constexpr (kHasPatch)
+      if (is_outer) patch.add(patch.side_b, sum.depth, sum.aligned, normal, sum.depth_moment, sum.second_moment);
   }
 
   TALUS_HD void add_surface_a(const Polygon& polygon, const HalfSpace& plane_a, bool is_outer, const PartView& b,
                               const FrameChange& b_to_a) {
     const Vec3 normal_in_b = transpose_times(b_to_a.rotation, plane_a.normal);
-    const PolygonDepth sum = integrate_depth(polygon, b.depth_planes, b.depth_plane_count, normal_in_b);
+    const auto sum = integrate_depth<PolygonSum>(polygon, b.depth_planes, b.depth_plane_count, normal_in_b);
     const Real s = b_to_a.scale, cube = s * s * s;
     const Vec3 moment_in_a = cube * (s * b_to_a.direction(sum.depth_moment) + sum.depth * b_to_a.translation);
     add(cube * sum.depth, moment_in_a, -plane_a.normal, is_outer);
     field_b.add((s * s) * b_to_a.direction(sum.descent), (s * s * sum.area) * plane_a.normal, plane_a.normal,
                 is_outer ? s * sum.largest : 0);
+    if constexpr (kHasPatch)
+      if (is_outer) {
+        const Vec3& shift = b_to_a.translation;
+        const Real second = cube * (s * s * sum.second_moment + 2 * s * dot(shift, b_to_a.direction(sum.depth_moment)) +
+                                    norm_squared(shift) * sum.depth);
+        patch.add(patch.side_a, cube * sum.depth, cube * sum.aligned, -plane_a.normal, moment_in_a, second);
+      }
   }
 
   /// World-frame contact on body a; nothing if there is no overlap.
@@ -173,6 +202,14 @@ struct DepthIntegrals {
     contact.stiffness = law.stiffness * square * (field_a.along(n) + field_b.along(n));
     contact.depth = a.scale * depth_along(n);
     return contact.stiffness > 0;
+  }
+
+  TALUS_HD void to_patch(const DepthPotential& law, const Pose& a, const ElasticContact& /*contact*/,
+                         ContactPatch& result) const requires kHasPatch {
+    result.normals = rotated(patch.normals(), a.rotation);
+    result.load = law.stiffness * a.scale * a.scale * a.scale * patch.load();
+    result.lever = a.scale * patch.lever();
+    result.stiffness_per_area = law.stiffness_per_area();
   }
 
   /// Depth of the overlap along the force: the depth below the planes of the steeper field over its steepness there.
@@ -193,5 +230,6 @@ struct DepthIntegrals {
     weighted_point += depth_moment;
   }
 };
+using DepthIntegrals = BasicDepthIntegrals<NoPatchSums>;
 
 }  // namespace dem_gpu

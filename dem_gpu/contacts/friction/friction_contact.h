@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dem_gpu/contacts/contact_patch.h"
 #include "dem_gpu/contacts/elastic_contact.h"
 #include "dem_gpu/contacts/restitution_damping.h"
 #include "dem_gpu/core/vec3.h"
@@ -10,7 +11,8 @@ namespace dem_gpu {
 // A friction policy is a small struct of parameters with
 //   kEnabled                                     false: no friction, no history
 //   kHasCouple                                   whether it resists turning too, so that couples enter torques and work
-//   Patch                                        what it asks of the contact's geometry besides the elastic contact
+//   Patch                                        what it asks of the geometry besides the elastic contact: NoPatch,
+//                                                ContactPatch
 //   apply(contacts, c, contact, patch)           forces of this step; renews the history of contact c
 //   forget(contacts, c)                          ends the history
 // and the columns of ContactColumns that hold its history.
@@ -21,9 +23,6 @@ struct PairProperties {
   Real friction_coefficient = 0;
   Real effective_modulus = 0;  // Hertz E* [Pa]
 };
-
-/// Nothing is asked of the geometry besides the elastic contact.
-struct NoPatch {};
 
 /// Motion of a relative to b at the contact point, world frame.
 struct RelativeMotion {

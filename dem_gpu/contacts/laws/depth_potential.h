@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dem_gpu/core/host_device.h"
 #include "dem_gpu/core/real.h"
 
 namespace dem_gpu {
@@ -11,6 +12,9 @@ namespace dem_gpu {
 struct DepthPotential {
   Real stiffness = 0;           // k [N/m3]
   Real depth_cap = Real(0.15);  // depth beyond which the field stays constant / equivalent diameter of the body [-]
+
+  /// Of two flat faces [N/m3].
+  TALUS_HD Real stiffness_per_area() const { return 2 * stiffness; }
 };
 
 }  // namespace dem_gpu
