@@ -133,6 +133,22 @@ TALUS_HD void end_contact(const ContactView& contacts, int c, const ContactSide&
   contacts.depth[c] = 0;
 }
 
+/// Friction of contact c from the sides' motion. Not part of respond, so that motion is the same with a record and
+/// without.
+template <class Friction>
+TALUS_HD TALUS_ONE_COPY FrictionForces friction_forces(const ContactView& contacts, int c, FrictionContact contact,
+                                                       const ContactSide& a, const ContactSide& b,
+                                                       const Friction& friction,
+                                                       const typename Friction::Patch& patch) {
+  const Vec3& point = contact.elastic.point;
+  contact.mean = {a.mean_velocity_at(point) - b.mean_velocity_at(point),
+                  a.mean_angular_velocity - b.mean_angular_velocity};
+  contact.predicted = {a.predicted_velocity_at(point) - b.predicted_velocity_at(point),
+                       a.predicted_angular_velocity - b.predicted_angular_velocity};
+  contact.mean_spin = Real(0.5) * (a.mean_angular_velocity + b.mean_angular_velocity);
+  return friction.apply(contacts, c, contact, patch);
+}
+
 /// Completes a touching contact: damping, friction, forces on both sides, history, work.
 template <class Friction, class Record>
 TALUS_HD void respond(const ContactView& contacts, int c, const ElasticContact& elastic, const ContactSide& a,
@@ -147,18 +163,8 @@ TALUS_HD void respond(const ContactView& contacts, int c, const ElasticContact& 
   forces.damping = -damping * elastic.normal;
   if constexpr (Friction::kEnabled)
     forces.friction =
-        friction.apply(contacts, c,
-                       FrictionContact{elastic,
-                                       pair,
-                                       damping,
-                                       effective_mass,
-                                       diameter,
-                                       {a.mean_velocity_at(elastic.point) - b.mean_velocity_at(elastic.point),
-                                        a.mean_angular_velocity - b.mean_angular_velocity},
-                                       {slip, a.predicted_angular_velocity - b.predicted_angular_velocity},
-                                       Real(0.5) * (a.mean_angular_velocity + b.mean_angular_velocity),
-                                       time_step},
-                       patch);
+        friction_forces(contacts, c, FrictionContact{elastic, pair, damping, effective_mass, diameter, time_step}, a, b,
+                        friction, patch);
   const Vec3 elastic_torque_b = cross(b.centre - a.centre, elastic.force) - elastic.torque_a;
   if constexpr (Record::kEnabled) {
     const StepWork work = step_work<Friction>(contacts, c, elastic, elastic_torque_b, forces, a, b, time_step);

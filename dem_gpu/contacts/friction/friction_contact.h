@@ -34,13 +34,13 @@ struct RelativeMotion {
 struct FrictionContact {
   const ElasticContact& elastic;
   const PairProperties& pair;
-  Real damping;              // part of the normal force, positive when repulsive [N]
-  Real effective_mass;       // that an impulse along the normal meets [kg]
-  Real diameter;             // equivalent, of the smaller body [m]
-  RelativeMotion mean;       // over the step: moves the springs
-  RelativeMotion predicted;  // for the end of the step: damping
-  Vec3 mean_spin;            // mean angular velocity of a and b over the step [rad/s]
-  Real time_step;            // [s]
+  Real damping;                // part of the normal force, positive when repulsive [N]
+  Real effective_mass;         // that an impulse along the normal meets [kg]
+  Real diameter;               // equivalent, of the smaller body [m]
+  Real time_step;              // [s]
+  RelativeMotion mean{};       // over the step: moves the springs
+  RelativeMotion predicted{};  // for the end of the step: damping
+  Vec3 mean_spin{};            // mean angular velocity of a and b over the step [rad/s]
 
   /// Normal force on a, damping included [N].
   TALUS_HD Real normal_load() const { return norm(elastic.force) + damping; }

@@ -109,7 +109,7 @@ TEST(Yaw, HoldsBelowAndSpinsAboveItsLimit) {
       const double early = yaw(simulation.snapshot().orientation[0]);
       run_loaded(simulation, 1, [&](double) { return Load{force, couple}; });
       const double late = yaw(simulation.snapshot().orientation[0]);
-      std::printf("  yaw %.2f mu m g L on %s: %.3e rad, %.2e rad/s\n", share, support.name, late, (late - early) / 0.5);
+      std::printf("  yaw %.2f mu m g L on %s: %.3e rad, %.2e rad/s\n", share, support.name, late, (late - early) / 0.5); {auto q=simulation.snapshot(); std::printf("    x %g %g z %g w %g %g v %g %g\n", q.position[0].x,q.position[0].y,q.position[0].z,q.angular_velocity[0].x,q.angular_velocity[0].y,q.velocity[0].x,q.velocity[0].y);}
     }
 }
 
