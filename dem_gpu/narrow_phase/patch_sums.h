@@ -35,16 +35,6 @@ TALUS_HD inline Real aligned_share(Real cosine) {
   return t * t * (3 - 2 * t);
 }
 
-/// Integral of f |x|^2 over a triangle of area `area` with corners a, b, c, where f is linear with corner values fa,
-/// fb, fc. By the barycentric monomials of degree 3.
-TALUS_HD inline Real second_moment_of_triangle(Real area, const Vec3& a, const Vec3& b, const Vec3& c, Real fa, Real fb,
-                                               Real fc) {
-  const Vec3 sum = a + b + c, weighted = fa * a + fb * b + fc * c;
-  const Real total = fa + fb + fc, aa = norm_squared(a), bb = norm_squared(b), cc = norm_squared(c);
-  return (area / 60) *
-         (total * (norm_squared(sum) + aa + bb + cc) + 2 * dot(weighted, sum) + 2 * (fa * aa + fb * bb + fc * cc));
-}
-
 /// Surface of one body inside the other.
 struct PatchSide {
   Mat3 tensor{{}, {}, {}};  // sum of aligned weight n n^T

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "dem_gpu/contacts/elastic_contact.h"
+#include "dem_gpu/narrow_phase/depth_profile.h"
 #include "dem_gpu/narrow_phase/part_overlap.h"
 #include "dem_gpu/narrow_phase/patch_sums.h"
 
@@ -13,7 +14,7 @@ namespace dem_gpu {
 /// visited too and cancel. Feng, Comput. Methods Appl. Mech. Eng. 373 (2021) 113493; divergence theorem about a point
 /// of the overlap, not the world's origin. For friction all of the contact is one patch along S.
 template <class Sums>
-struct BasicVolumeIntegrals {
+struct VolumeIntegralsOf {
   static constexpr bool kNeedsInnerFaces = true;
   static constexpr bool kNeedsDepthPlanes = false;
   static constexpr bool kHasPatch = std::is_same_v<Sums, PatchSums>;
@@ -65,12 +66,10 @@ struct BasicVolumeIntegrals {
     return set_normal(contact);
   }
 
-  TALUS_HD void to_patch(const OverlapVolume& law, const Pose& a, const ElasticContact& contact,
-                         ContactPatch& result) const requires kHasPatch {
-    result.normals = rotated(patch.normals(), a.rotation);
-    result.load = norm(contact.force);
-    result.lever = a.scale * patch.lever();
-    result.stiffness_per_area = law.stiffness_per_area();
+  TALUS_HD ContactPatch to_patch(const OverlapVolume& law, const Pose& a,
+                                 const ElasticContact& contact) const requires kHasPatch {
+    return {rotated(patch.normals(), a.rotation), norm(contact.force), a.scale * patch.lever(),
+            law.stiffness_per_area()};
   }
 
  private:
@@ -81,7 +80,7 @@ struct BasicVolumeIntegrals {
       const Vec3 b = polygon.corner[c - 1], d = polygon.corner[c];
       const Real triangle = Real(0.5) * dot(cross(b - a, d - a), normal);
       patch.add(side, triangle, 0, sign * normal, (triangle / 3) * (a + b + d),
-                second_moment_of_triangle(triangle, a, b, d, 1, 1, 1));
+                LinearProfile{}.second_moment({a, b, d, 1, 1, 1, triangle}));
     }
   }
   TALUS_HD void add_volume(const Polygon& polygon, const Vec3& normal) {
@@ -97,6 +96,6 @@ struct BasicVolumeIntegrals {
     }
   }
 };
-using VolumeIntegrals = BasicVolumeIntegrals<NoPatchSums>;
+using VolumeIntegrals = VolumeIntegralsOf<NoPatchSums>;
 
 }  // namespace dem_gpu

@@ -3,6 +3,7 @@
 
 #include "dem_gpu/contacts/elastic_contact.h"
 #include "dem_gpu/core/scratch_array.h"
+#include "dem_gpu/narrow_phase/depth_profile.h"
 #include "dem_gpu/narrow_phase/part_frame.h"
 #include "dem_gpu/scene.h"
 #include "dem_gpu/walls/wall_patch_sums.h"
@@ -20,16 +21,19 @@ struct WallSample {
 /// DepthIntegrals), world frame about `centre`:
 /// force direction = - integral of depth n dA. The wall's field alone carries the contact (U = 2 k integral of the
 /// wall's depth over the overlap), so a flat face meets a wall as it meets another flat face. Planes are exact; on
-/// curved walls each face is cut into pieces on which the depth is taken as linear (see kChordError).
-template <class Sums>
-struct BasicWallIntegrals {
+/// curved walls each face is cut into pieces on which the depth is taken as linear (see kChordError). A hardening law
+/// takes psi = profile(depth) in place of the depth.
+template <class Profile, class Sums = NoPatchSums>
+struct WallIntegralsOf {
   static constexpr bool kHasPatch = std::is_same_v<Sums, WallPatchSums>;
+
+  Profile profile{};
 
   Vec3 force;           // [m3]
   Vec3 moment;          // [m4]
   Real weight = 0;      // [m3]
   Vec3 weighted_point;  // [m4]
-  Vec3 area;            // vector area of the surface inside [m2]
+  Vec3 area;            // vector area of the surface inside, weighted by d psi / d depth [m2]
   Real largest_depth = 0;
   Sums patch;
 
@@ -68,11 +72,10 @@ struct BasicWallIntegrals {
     return set_normal(contact);
   }
 
-  TALUS_HD void to_patch(Real stiffness, ContactPatch& result) const requires kHasPatch {
-    result.normals = patch.normals();
-    result.load = stiffness * std::max(patch.load, Real(0));
-    result.lever = std::sqrt(std::max(patch.second_moment / weight - norm_squared(weighted_point / weight), Real(0)));
-    result.stiffness_per_area = stiffness;
+  TALUS_HD ContactPatch to_patch(Real stiffness) const requires kHasPatch {
+    const Real square = patch.second_moment / weight - norm_squared(weighted_point / weight);
+    return {patch.normals(), stiffness * std::max(patch.load, Real(0)), std::sqrt(std::max(square, Real(0))),
+            stiffness};
   }
 
  private:
@@ -88,24 +91,22 @@ struct BasicWallIntegrals {
   TALUS_HD void add_linear(const WallSample& a, const WallSample& b, const WallSample& c, const Vec3& normal,
                            bool is_outer) {
     const Real triangle = Real(0.5) * dot(cross(b.position - a.position, c.position - a.position), normal);
-    const Real da = a.field.depth, db = b.field.depth, dc = c.field.depth, total = da + db + dc;
-    const Real depth = triangle * total / 3;
-    const Vec3 depth_moment = (triangle / 12) * (da * a.position + db * b.position + dc * c.position +
-                                                 total * (a.position + b.position + c.position));
+    const Real da = a.field.depth, db = b.field.depth, dc = c.field.depth;
+    const DepthTriangle piece{a.position, b.position, c.position, da, db, dc, triangle};
+    const auto [depth, depth_moment, stiff_area] = profile.integrate(piece);
     force -= depth * normal;
     moment -= cross(depth_moment, normal);
-    area += triangle * normal;
+    area += stiff_area * normal;
     if (!is_outer) return;
     weight += depth;
     weighted_point += depth_moment;
     largest_depth = std::max(largest_depth, std::max(da, std::max(db, dc)));
     if constexpr (kHasPatch)
-      if (depth > 0)
-        patch.add(depth, normal, (1 / depth) * depth_moment,
-                  second_moment_of_triangle(triangle, a.position, b.position, c.position, da, db, dc));
+      if (depth > 0) patch.add(depth, normal, depth_moment / depth, profile.second_moment(piece));
   }
 };
-using WallIntegrals = BasicWallIntegrals<NoPatchSums>;
+
+using WallIntegrals = WallIntegralsOf<LinearProfile>;
 
 /// Chord error that a piece of a face may have against a curved wall, as a share of the part's radius.
 constexpr Real kChordError = Real(0.002);

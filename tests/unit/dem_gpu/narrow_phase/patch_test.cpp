@@ -12,7 +12,7 @@ using namespace test_support;
 using dem_gpu::ContactPatch;
 using dem_gpu::ElasticContact;
 using dem_gpu::Mat3;
-using Integrals = dem_gpu::BasicDepthIntegrals<dem_gpu::PatchSums>;
+using Integrals = dem_gpu::DepthIntegralsOf<dem_gpu::LinearProfile, dem_gpu::PatchSums>;
 
 struct Found {
   ElasticContact contact;
@@ -24,7 +24,7 @@ Found find(const PairIntegrals& pair, const Placed& a, const Placed& b) {
   const dem_gpu::DepthPotential law{1};
   Found found;
   EXPECT_TRUE(integrals.to_contact(law, a.pose(), found.contact));
-  integrals.to_patch(law, a.pose(), found.contact, found.patch);
+  found.patch = integrals.to_patch(law, a.pose(), found.contact);
   return found;
 }
 
@@ -94,16 +94,24 @@ TEST(Patch, InnerCornerLoadsBothItsFaces) {
 }
 
 TEST(Patch, SecondMomentOfATriangle) {
-  // Against a quadrature exact for cubics (Strang & Fix: 4 points), times |x|^2 f.
-  const Vec3 a{0.3, 0.1, -0.2}, b{1.1, 0.4, 0.3}, c{-0.2, 0.9, 0.6};
-  const Real fa = 0.3, fb = 0.7, fc = 0.2, area = norm(cross(b - a, c - a)) / 2;
-  const auto value = [&](Real u, Real v, Real w) {
-    return (u * fa + v * fb + w * fc) * norm_squared(u * a + v * b + w * c);
+  const dem_gpu::DepthTriangle t{{0.3, 0.1, -0.2}, {1.1, 0.4, 0.3}, {-0.2, 0.9, 0.6}, 0.3, 0.7, 0.2, 0.4};
+  // Midpoint rule over n^2 equal triangles: second order.
+  const auto by_pieces = [&](Real rate) {
+    const int n = 600;
+    Real sum = 0;
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n - i; ++j)
+        for (int upper = 0; upper < (i + j < n - 1 ? 2 : 1); ++upper) {
+          const Real u = (i + (upper + 1) / Real(3)) / n, v = (j + (upper + 1) / Real(3)) / n, w = 1 - u - v;
+          const Real depth = u * t.depth_a + v * t.depth_b + w * t.depth_c;
+          sum += depth * (1 + rate * depth) * norm_squared(u * t.a + v * t.b + w * t.c);
+        }
+    return t.area * sum / (Real(n) * n);
   };
-  const Real third = Real(1) / 3;
-  const Real quadrature = area * (-27. / 48 * value(third, third, third) +
-                                  25. / 48 * (value(0.6, 0.2, 0.2) + value(0.2, 0.6, 0.2) + value(0.2, 0.2, 0.6)));
-  EXPECT_NEAR(dem_gpu::second_moment_of_triangle(area, a, b, c, fa, fb, fc), quadrature, 1e-14);
+  EXPECT_NEAR(dem_gpu::LinearProfile{}.second_moment(t) / by_pieces(0), 1, 1e-5);
+  for (const Real rate : {0., 2., 30.})
+    EXPECT_NEAR(dem_gpu::HardeningProfile{rate}.second_moment(t) / by_pieces(rate), 1, 1e-5);
+  EXPECT_NEAR(dem_gpu::HardeningProfile{0}.second_moment(t), dem_gpu::LinearProfile{}.second_moment(t), 1e-14);
 }
 
 }  // namespace
