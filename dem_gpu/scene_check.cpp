@@ -90,7 +90,7 @@ Real mass_of(const Scene& scene, const Body& body) {
 Real stiffness_per_area_ratio(const PolyhedralLaw& law) { return depth_potential(law) ? 2 : 1; }
 
 Real stiffness_per_area(const PolyhedralLaw& law) {
-  return stiffness_per_area_ratio(law) * std::visit([](const auto& chosen) { return chosen.stiffness; }, law);
+  return std::visit([](const auto& chosen) { return chosen.stiffness_per_area(); }, law);
 }
 
 /// Tangent stiffness of a flat contact as deep as the law reckons with, over that at touch.

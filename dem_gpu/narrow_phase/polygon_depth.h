@@ -7,6 +7,7 @@
 
 #include "dem_gpu/narrow_phase/depth_profile.h"
 #include "dem_gpu/narrow_phase/near_depth.h"
+#include "dem_gpu/narrow_phase/patch_sums.h"
 #include "dem_gpu/narrow_phase/polygon.h"
 
 namespace dem_gpu {
@@ -15,6 +16,8 @@ namespace dem_gpu {
 /// itself where the law is linear):
 template <class Profile>
 struct PolygonDepthOf {
+  static constexpr bool kHasPatch = false;
+
   Profile profile{};
 
   Real depth = 0;             // integral of psi dA [m3]
@@ -26,9 +29,19 @@ struct PolygonDepthOf {
 };
 using PolygonDepth = PolygonDepthOf<LinearProfile>;
 
+/// With what friction needs.
+template <class Profile>
+struct PolygonPatchDepthOf : PolygonDepthOf<Profile> {
+  static constexpr bool kHasPatch = true;
+
+  Real aligned = 0;        // the share of psi dA that meets the field at right angles [m3]
+  Real second_moment = 0;  // integral of psi |x|^2 dA [m5]
+};
+
 /// Adds a polygon on which the depth is linear: closed form over the triangles of its fan.
 template <class Sum>
 TALUS_HD void add_linear_depth(const Polygon& polygon, const HalfSpace& plane, const Vec3& normal, Sum& sum) {
+  [[maybe_unused]] const Real depth_before = sum.depth;
   DepthTriangle triangle;
   triangle.a = polygon.corner[0];
   triangle.depth_a = depth_below(plane, triangle.a);
@@ -45,9 +58,11 @@ TALUS_HD void add_linear_depth(const Polygon& polygon, const HalfSpace& plane, c
     sum.depth += integrals.depth;
     sum.depth_moment += integrals.depth_moment;
     sum.largest = std::max(sum.largest, triangle.depth_c);
+    if constexpr (Sum::kHasPatch) sum.second_moment += sum.profile.second_moment(triangle);
     triangle.b = triangle.c;
     triangle.depth_b = triangle.depth_c;
   }
+  if constexpr (Sum::kHasPatch) sum.aligned += aligned_share(-dot(normal, plane.normal)) * (sum.depth - depth_before);
 }
 
 /// A polygon cut down step by step, between two buffers.
