@@ -12,6 +12,7 @@ struct ElasticContact {
   Vec3 point;          // [m]
   Vec3 normal;         // contact normal, unit, from a to b
   Real stiffness = 0;  // tangent stiffness dF/d(depth) [N/m]
+  Real adhesion = 0;   // constant attraction included in `force` [N]
   Real depth = 0;      // largest depth [m]
 };
 

@@ -45,6 +45,7 @@ TALUS_HD bool integrate_bodies(const ShapeView& shapes, int shape_a, int shape_b
 template <class Law, class PartnerKind>
 struct PolyhedronGeometry {
   using Partner = PartnerKind;
+  using Damping = PointDamping;
   Law law;
 
   TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic, NoPatch&) const {

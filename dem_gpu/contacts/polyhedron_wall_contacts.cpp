@@ -15,6 +15,7 @@ TALUS_HD Real wall_stiffness(const OverlapVolume& law) { return law.stiffness; }
 template <class Law>
 struct PolyhedronWallGeometry {
   using Partner = WallPartner;
+  using Damping = PointDamping;
   Law law;
 
   TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic, NoPatch&) const {

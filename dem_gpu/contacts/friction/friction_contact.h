@@ -20,6 +20,11 @@ struct PairProperties {
   DampingRatios damping;
   Real friction_coefficient = 0;
   Real effective_modulus = 0;  // Hertz E* [Pa]
+  // Of sphere contacts.
+  Real sphere_damping = 0;              // damping ratio of the sphere law [-]
+  Real tangential_stiffness_ratio = 0;  // tangential over normal stiffness [-]
+  Real rolling_friction = 0;            // mu_r [-]
+  Real adhesion = 0;                    // work of adhesion [J/m2]
 };
 
 /// Nothing is asked of the geometry besides the elastic contact.
@@ -43,8 +48,8 @@ struct FrictionContact {
   Vec3 mean_spin;            // mean angular velocity of a and b over the step [rad/s]
   Real time_step;            // [s]
 
-  /// Normal force on a, damping included [N].
-  TALUS_HD Real normal_load() const { return norm(elastic.force) + damping; }
+  /// Normal force on a, damping included, without adhesion: what presses the surfaces together [N].
+  TALUS_HD Real normal_load() const { return damping + elastic.adhesion - dot(elastic.force, elastic.normal); }
 };
 
 /// Friction on a; b gets the opposite.

@@ -254,7 +254,7 @@ const BadScene kBadScenes[] = {
     {"\"10 cm\"", "\"-10 cm\"", "\"-10 cm\"", "it must be more than 0"},
     {"radius = \"10 cm\"", "radius = nan", "nan", "it must be more than 0"},
     {"density = \"2700 kg/m3\"", "density = 0", "0\n\n[material.steel]", "it must be more than 0"},
-    {"restitution = 0.4", "restitution = 1.4", "1.4", "from 0.01 to 1"},
+    {"restitution = 0.4", "restitution = 1.4", "1.4", "from 0 to 1"},
     {"count = 12", "count = -12", "-12", "from 1 to"},
     {"axis = [0, 1, 0]\nradius", "axis = [0, 0, 0]\nradius", "[0, 0, 0]\nradius", "must point somewhere"},
     {"height = \"10 mm\"", "height = \"30 cm\"", "\"30 cm\"", "less than the shell's radius"},
