@@ -60,7 +60,7 @@ struct OrbitDamping {
       orbit.start_speed += step / 2 * orbit.acceleration - owed;
     }
     orbit.advance(duration, substeps((rate + damping) * duration, is_first), is_first);
-    const Real kick = orbit.has_ended ? orbit.kick : orbit.shift / step;
+    const Real kick = orbit.has_parted ? orbit.kick : orbit.shift / step;
     contacts.owed_kick[c] = orbit.kick - kick;
     const Real total = mass * (owed + kick) / step;
     if (damping > 0) return total - force;
@@ -80,7 +80,7 @@ struct OrbitDamping {
   /// Share of 1 / (rates) that a sub-step spans: restitution is then right to 1e-5 at 20 steps a contact.
   static constexpr Real kProgressPerSubstep = 0.1;
   static constexpr int kFirstSubsteps = 6;
-  static constexpr int kMostSubsteps = 64;
+  static constexpr int kMostSubsteps = 512;
   /// Above 1 by the turn of the normal during a step: bodies that touch deeper than they came were placed so.
   static constexpr Real kTouchMargin = Real(1.1);
 };

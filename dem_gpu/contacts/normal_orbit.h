@@ -25,7 +25,9 @@ struct NormalAcceleration {
     const Real root = std::sqrt(r);
     return elastic * r * root + damping * std::sqrt(root) * speed;
   }
-  TALUS_HD Real operator()(Real depth, Real speed) const { return std::max(unclamped(depth, speed), Real(0)) - adhesion; }
+  TALUS_HD Real operator()(Real depth, Real speed) const {
+    return std::max(unclamped(depth, speed), Real(0)) - adhesion;
+  }
 };
 
 /// Motion of two bodies along the normal of their contact over one step, integrated in sub-steps, so that where in the
@@ -38,21 +40,28 @@ struct NormalOrbit {
 
   // Loss of approach speed through the contact [m/s], and its integral over time [m].
   Real kick = 0, shift = 0;
-  bool has_ended = false;
+  bool has_parted = false;  // it has let go, and no overlap is left at the end
 
   /// Sub-steps grow as the fourth power of their number if `is_first`: after touch, damping grows as time^(1/4).
   TALUS_HD void advance(Real duration, int substeps, bool is_first) {
+    Point point{0, 0};
     Real begin = 0;
-    for (int i = 1; i <= substeps && !has_ended; ++i) {
+    for (int i = 1; i <= substeps; ++i) {
       const Real share = static_cast<Real>(i) / substeps;
       const Real end = duration * (is_first ? share * share * share * share : share);
-      const Point before{kick, shift}, after = stepped(before, begin, end - begin);
-      has_ended = has_let_go(end, after);
-      const Point last = has_ended ? release(before, begin, end - begin) : after;
-      kick = last.kick;
-      shift = last.shift;
+      const Point after = stepped(point, begin, end - begin);
+      if (has_let_go(end, after)) {
+        const Real held = time_to_release(point, begin, end - begin);
+        point = stepped(point, begin, held);
+        point.shift += point.kick * (duration - begin - held);
+        has_parted = depth(duration, point) <= 0;
+        break;
+      }
+      point = after;
       begin = end;
     }
+    kick = point.kick;
+    shift = point.shift;
   }
 
  private:
@@ -79,21 +88,14 @@ struct NormalOrbit {
     return {p.kick + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4), p.shift + h / 6 * (p.kick + 2 * v2 + 2 * v3 + v4)};
   }
 
-  /// Where the contact lets go within the sub-step that ends without it.
-  TALUS_HD Point release(const Point& p, Real time, Real h) const {
+  /// From the start of the sub-step, of length h, at whose end it has let go [s].
+  TALUS_HD Real time_to_release(const Point& p, Real time, Real h) const {
     Real low = 0, high = h;
-    Point last = p;
     for (int i = 0; i < kReleaseBisections; ++i) {
       const Real middle = (low + high) / 2;
-      const Point at = stepped(p, time, middle);
-      if (has_let_go(time + middle, at)) {
-        high = middle;
-      } else {
-        low = middle;
-        last = at;
-      }
+      (has_let_go(time + middle, stepped(p, time, middle)) ? high : low) = middle;
     }
-    return last;
+    return low;
   }
 
   /// To 1e-6 of a sub-step: the force is small at release, so the speed is right to 1e-8 and better.

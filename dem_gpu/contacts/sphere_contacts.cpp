@@ -21,8 +21,8 @@ struct SphereSphereGeometry {
     const Real distance = std::sqrt(square);
     const SphereGap gap{distance - radius_b, distance > 0 ? offset / distance : Vec3{0, 0, 1},
                         radius_a * radius_b / reach};
-    return sphere_contact(law, bodies.position[a], radius_a, gap,
-                          scene.pair(bodies.material[a], bodies.material[b]), elastic, patch);
+    return sphere_contact(law, bodies.position[a], radius_a, gap, scene.pair(bodies.material[a], bodies.material[b]),
+                          elastic, patch);
   }
 };
 
@@ -46,12 +46,12 @@ struct SphereWallGeometry {
 
 std::unique_ptr<Pass> make_sphere_contacts_pass(const Scene& scene) {
   return make_sphere_pass("sphere_contacts", ContactKind::sphere_sphere, scene,
-                           [](const auto& law) { return SphereSphereGeometry<std::decay_t<decltype(law)>>{law}; });
+                          [](const auto& law) { return SphereSphereGeometry<std::decay_t<decltype(law)>>{law}; });
 }
 
 std::unique_ptr<Pass> make_sphere_wall_contacts_pass(const Scene& scene) {
   return make_sphere_pass("sphere_wall_contacts", ContactKind::sphere_wall, scene,
-                           [](const auto& law) { return SphereWallGeometry<std::decay_t<decltype(law)>>{law}; });
+                          [](const auto& law) { return SphereWallGeometry<std::decay_t<decltype(law)>>{law}; });
 }
 
 }  // namespace dem_gpu

@@ -37,13 +37,15 @@ struct SpherePolyhedronGeometry {
 }  // namespace
 
 std::unique_ptr<Pass> make_sphere_polyhedron_contacts_pass(const Scene& scene) {
-  return make_sphere_pass("sphere_polyhedron_contacts", ContactKind::sphere_polyhedron, scene,
-      [](const auto& law) { return SpherePolyhedronGeometry<std::decay_t<decltype(law)>, BodyPartner>{law}; });
+  return make_sphere_pass("sphere_polyhedron_contacts", ContactKind::sphere_polyhedron, scene, [](const auto& law) {
+    return SpherePolyhedronGeometry<std::decay_t<decltype(law)>, BodyPartner>{law};
+  });
 }
 
 std::unique_ptr<Pass> make_sphere_object_contacts_pass(const Scene& scene) {
-  return make_sphere_pass("sphere_object_contacts", ContactKind::sphere_object, scene,
-      [](const auto& law) { return SpherePolyhedronGeometry<std::decay_t<decltype(law)>, WallPartner>{law}; });
+  return make_sphere_pass("sphere_object_contacts", ContactKind::sphere_object, scene, [](const auto& law) {
+    return SpherePolyhedronGeometry<std::decay_t<decltype(law)>, WallPartner>{law};
+  });
 }
 
 }  // namespace dem_gpu

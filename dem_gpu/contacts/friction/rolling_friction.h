@@ -30,9 +30,9 @@ struct RollingFriction {
     TangentialSpring spring{carried_spring<Law>(contacts.turning_displacement[c], contacts.depth[c], contact),
                             kStiffness * coefficient * coefficient * contact.elastic.stiffness, 0};
     spring.damping = 2 * kDampingRatio * std::sqrt(kRollingMass * contact.effective_mass * spring.stiffness);
-    const Vec3 force = spring.force(normal, rolled(contact.mean.angular_velocity),
-                                    rolled(contact.predicted.angular_velocity), contact.time_step,
-                                    coefficient * contact.normal_load());
+    const Vec3 force =
+        spring.force(normal, rolled(contact.mean.angular_velocity), rolled(contact.predicted.angular_velocity),
+                     contact.time_step, coefficient * contact.normal_load());
     friction.couple = patch.effective_radius * force;
     friction.energy += Real(0.5) * spring.stiffness * norm_squared(spring.displacement);
     contacts.turning_displacement[c] = spring.displacement;
