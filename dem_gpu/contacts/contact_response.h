@@ -126,6 +126,12 @@ TALUS_HD void end_contact(const ContactView& contacts, int c, const ContactSide&
   contacts.depth[c] = 0;
 }
 
+/// Acceleration of approach, negative: centres that pass each other at a velocity part as they go [m/s2].
+TALUS_HD inline Real turning(const ElasticContact& elastic, const Vec3& velocity) {
+  const Real along = dot(velocity, elastic.normal);
+  return -elastic.curvature * (norm_squared(velocity) - along * along);
+}
+
 /// Completes a touching contact: damping, friction, forces on both sides, history, work.
 template <class Damping, class Friction, class Record>
 TALUS_HD void respond(const ContactView& contacts, int c, ElasticContact& elastic, const ContactSide& a,
@@ -136,9 +142,10 @@ TALUS_HD void respond(const ContactView& contacts, int c, ElasticContact& elasti
   const Real effective_mass = 1 / (a.inverse_effective_mass(elastic.point, elastic.normal) +
                                    b.inverse_effective_mass(elastic.point, elastic.normal));
   ContactForces forces;
-  const Real damping = Damping::apply(
-      contacts, c, elastic,
-      NormalImpact{pair, effective_mass, dot(mean_slip, elastic.normal), dot(slip, elastic.normal), time_step});
+  const Real damping =
+      Damping::apply(contacts, c, elastic,
+                     NormalImpact{pair, effective_mass, dot(mean_slip, elastic.normal), dot(slip, elastic.normal),
+                                  turning(elastic, a.mean_velocity - b.mean_velocity), time_step});
   forces.damping = -damping * elastic.normal;
   if constexpr (Friction::kEnabled)
     forces.friction =

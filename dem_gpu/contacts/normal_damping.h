@@ -21,6 +21,7 @@ struct NormalImpact {
   Real effective_mass;   // that an impulse along the normal meets [kg]
   Real mean_speed;       // of approach over the step that ends now [m/s]
   Real predicted_speed;  // of approach at its end, the forces of its beginning taken as constant [m/s]
+  Real turning;          // acceleration of approach as the normal turns under sliding centres [m/s2]
   Real time_step;        // [s]
 };
 
@@ -49,15 +50,17 @@ struct OrbitDamping {
                                  Law::kExponent > 1};
     const bool is_first = contacts.depth[c] == 0 && elastic.depth <= kTouchMargin * step * impact.mean_speed;
     const Real owed = contacts.owed_kick[c];
-    NormalOrbit orbit{law, 0, impact.mean_speed, 0};
+    NormalOrbit orbit{law, 0, impact.mean_speed, impact.turning};
     Real duration = step;
     if (is_first) {
-      duration += std::min(step, elastic.depth / impact.mean_speed);
+      orbit.start_speed = std::sqrt(impact.mean_speed * impact.mean_speed - 2 * impact.turning * elastic.depth);
+      duration += std::min(step, 2 * elastic.depth / (impact.mean_speed + orbit.start_speed));
     } else {
       const Real contact_before = -dot(contacts.force[c], elastic.normal) / mass;
-      orbit.acceleration = 2 * (impact.predicted_speed - impact.mean_speed) / step + contact_before;
+      const Real by_others = 2 * (impact.predicted_speed - impact.mean_speed) / step + contact_before;
+      orbit.acceleration += by_others;
       orbit.start_depth = elastic.depth;
-      orbit.start_speed += step / 2 * orbit.acceleration - owed;
+      orbit.start_speed += step / 2 * by_others - owed;
     }
     orbit.advance(duration, substeps((rate + damping) * duration, is_first), is_first);
     const Real kick = orbit.has_parted ? orbit.kick : orbit.shift / step;

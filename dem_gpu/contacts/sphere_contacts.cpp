@@ -21,6 +21,7 @@ struct SphereSphereGeometry {
     const Real distance = std::sqrt(square);
     const SphereGap gap{distance - radius_b, distance > 0 ? offset / distance : Vec3{0, 0, 1},
                         radius_a * radius_b / reach};
+    elastic.curvature = distance > 0 ? 1 / distance : 0;
     return sphere_contact(law, bodies.position[a], radius_a, gap, scene.pair(bodies.material[a], bodies.material[b]),
                           elastic, patch);
   }
