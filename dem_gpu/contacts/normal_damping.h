@@ -48,20 +48,16 @@ struct OrbitDamping {
     const Real rate = std::sqrt(elastic.stiffness / mass), damping = 2 * impact.pair.sphere_damping * rate;
     const NormalAcceleration law{elastic.depth, (force + elastic.adhesion) / mass, damping, elastic.adhesion / mass,
                                  Law::kExponent > 1};
-    const bool is_first = contacts.depth[c] == 0 && elastic.depth <= kTouchMargin * step * impact.mean_speed;
     const Real owed = contacts.owed_kick[c];
-    NormalOrbit orbit{law, 0, impact.mean_speed, impact.turning};
-    Real duration = step;
-    if (is_first) {
-      orbit.start_speed = std::sqrt(impact.mean_speed * impact.mean_speed - 2 * impact.turning * elastic.depth);
-      duration += std::min(step, 2 * elastic.depth / (impact.mean_speed + orbit.start_speed));
-    } else {
+    const bool is_first = contacts.depth[c] == 0 && elastic.depth <= kTouchMargin * step * impact.mean_speed;
+    Real by_others = 0;
+    if (!is_first) {
       const Real contact_before = -dot(contacts.force[c], elastic.normal) / mass;
-      const Real by_others = 2 * (impact.predicted_speed - impact.mean_speed) / step + contact_before;
-      orbit.acceleration += by_others;
-      orbit.start_depth = elastic.depth;
-      orbit.start_speed += step / 2 * by_others - owed;
+      by_others = 2 * (impact.predicted_speed - impact.mean_speed) / step + contact_before;
     }
+    NormalOrbit orbit{law, elastic.depth, impact.mean_speed + step / 2 * by_others - owed, by_others + impact.turning};
+    Real duration = step;
+    if (is_first) duration += orbit.back_to_touch(step);
     orbit.advance(duration, substeps((rate + damping) * duration, is_first), is_first);
     const Real kick = orbit.has_parted ? orbit.kick : orbit.shift / step;
     contacts.owed_kick[c] = orbit.kick - kick;

@@ -42,6 +42,15 @@ struct NormalOrbit {
   Real kick = 0, shift = 0;
   bool has_parted = false;  // it has let go, and no overlap is left at the end
 
+  /// Moves the start to where the bodies touched, at most `limit` ago, as they came freely; the time since then [s].
+  TALUS_HD Real back_to_touch(Real limit) {
+    const Real touch_speed = std::sqrt(std::max(start_speed * start_speed - 2 * acceleration * start_depth, Real(0)));
+    const Real time = std::min(limit, 2 * start_depth / (start_speed + touch_speed));
+    start_depth = 0;
+    start_speed = touch_speed;
+    return time;
+  }
+
   /// Sub-steps grow as the fourth power of their number if `is_first`: after touch, damping grows as time^(1/4).
   TALUS_HD void advance(Real duration, int substeps, bool is_first) {
     Point point{0, 0};
