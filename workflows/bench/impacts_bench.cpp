@@ -232,7 +232,7 @@ CaseResult tangential_sweep() {
     char at[48];
     std::snprintf(at, sizeof at, "Vs/(mu Vn) = %.1f", ratio);
     if (ratio >= 8) {
-      table.add_error(std::string(at) + ", Vs'/(mu Vn')", y.back(), ratio - 7);
+      table.add_error(std::string(at) + ", fall of it", ratio - y.back(), 7);
       table.add_error(std::string(at) + ", R omega'/(mu Vn)", rebound.spin * impact.radius / unit, 5);
     } else {
       table.add_value(std::string(at) + ", Vs'/(mu Vn')", y.back(), "-");
