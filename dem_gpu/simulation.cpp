@@ -44,16 +44,43 @@ Real effective_modulus(const Material& a, const Material& b) {
               (1 - b.poisson_ratio * b.poisson_ratio) / b.youngs_modulus);
 }
 
+/// Effective shear modulus: 1 / G* = sum of (2 - nu) / G, G = E / (2 (1 + nu)).
+Real effective_shear_modulus(const Material& a, const Material& b) {
+  const auto compliance = [](const Material& m) {
+    return 2 * (2 - m.poisson_ratio) * (1 + m.poisson_ratio) / m.youngs_modulus;
+  };
+  return 1 / (compliance(a) + compliance(b));
+}
+
+/// Tangential over normal stiffness of sphere contacts; Hertz: 8 G* a over 2 E* a.
+Real tangential_stiffness_ratio(const Scene& scene, const Material& a, const Material& b) {
+  if (!std::holds_alternative<Hertz>(scene.sphere_law))
+    return scene.friction ? scene.friction->tangential_stiffness_ratio : 0;
+  return 4 * effective_shear_modulus(a, b) / effective_modulus(a, b);
+}
+
 std::vector<PairProperties> pair_properties(const Scene& scene) {
   const std::size_t n = scene.materials.size();
+  const Real sphere_exponent = std::visit([](const auto& law) { return law.kExponent; }, scene.sphere_law);
   std::map<Real, DampingRatios> solved;
+  std::map<Real, Real> solved_for_spheres;
   std::vector<PairProperties> pairs(n * n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
-      const Real restitution = scene.contact[i][j].restitution;
-      if (!solved.contains(restitution)) solved[restitution] = damping_ratios(restitution);
-      pairs[i * n + j] = {solved[restitution], scene.contact[i][j].friction_coefficient,
-                          effective_modulus(scene.materials[i], scene.materials[j])};
+      const ContactProperties& contact = scene.contact[i][j];
+      const Real restitution = contact.restitution;
+      if (!solved.contains(restitution)) {
+        solved[restitution] = damping_ratios(restitution);
+        solved_for_spheres[restitution] = damping_ratio(sphere_exponent, restitution);
+      }
+      const Material &a = scene.materials[i], &b = scene.materials[j];
+      pairs[i * n + j] = {solved[restitution],
+                          contact.friction_coefficient,
+                          effective_modulus(a, b),
+                          solved_for_spheres[restitution],
+                          tangential_stiffness_ratio(scene, a, b),
+                          contact.rolling_friction,
+                          contact.adhesion};
     }
   return pairs;
 }
@@ -125,6 +152,9 @@ Model make_model(const Scene& scene, BodyColumns& columns) {
   model.features.has_friction = scene.friction.has_value();
   model.features.has_ledger = scene.energy_ledger;
   model.features.has_walls = !scene.walls.empty();
+  model.features.has_friction_couples = has_rolling_friction(scene);
+  model.features.has_spheres =
+      std::find(model.body_is_sphere.begin(), model.body_is_sphere.end(), 1) != model.body_is_sphere.end();
   model.features.has_polyhedra =
       std::find(model.body_is_sphere.begin(), model.body_is_sphere.end(), 0) != model.body_is_sphere.end();
   model.features.has_friction_couples = model.features.has_friction && model.features.has_polyhedra;

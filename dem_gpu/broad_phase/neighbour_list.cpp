@@ -115,6 +115,7 @@ struct CarryHistory {
       for (int k = 0; k < length; ++k)
         to.separating[to.cache_begin[c] + k] = from.separating[from.cache_begin[old] + k];
     }
+    if (features.has_spheres) to.owed_kick[c] = from.owed_kick[old];
     if (features.has_friction) to.tangential_displacement[c] = from.tangential_displacement[old];
     if (features.has_friction_couples) to.turning_displacement[c] = from.turning_displacement[old];
     if (features.has_friction && features.has_polyhedra) to.spring_normal[c] = from.spring_normal[old];

@@ -14,7 +14,7 @@ namespace dem_gpu {
 namespace {
 
 constexpr const char* kKind = "talus-checkpoint";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 /// A whole checkpoint that does not fit the simulation: no reason to look at an earlier one.
 class ForeignCheckpoint : public catalog::InputError {
@@ -47,6 +47,7 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("contacts/is_truncated", c.is_truncated);
   visit("contacts/cache_begin", c.cache_begin);
   visit("contacts/separating", c.separating);
+  visit("contacts/owed_kick", c.owed_kick);
   visit("contacts/tangential_displacement", c.tangential_displacement);
   visit("contacts/turning_displacement", c.turning_displacement);
   visit("contacts/spring_normal", c.spring_normal);
@@ -143,7 +144,7 @@ std::int64_t fingerprint(const Model& model) {
   if (model.scene.outflow) mix(&*model.scene.outflow, sizeof(Outflow));
   const ContactFeatures& features = model.features;
   for (const bool has : {features.has_friction, features.has_ledger, features.has_walls, features.has_polyhedra,
-                         features.has_friction_couples})
+                         features.has_friction_couples, features.has_spheres})
     mix(&has, sizeof(has));
   if (model.scene.friction) mix(&*model.scene.friction, sizeof(Friction));
   const std::size_t law = model.scene.polyhedral_law.index();
@@ -152,7 +153,9 @@ std::int64_t fingerprint(const Model& model) {
   for (const PairProperties& pair : pairs) {
     mix(pair.damping.ratio, sizeof(pair.damping.ratio));
     mix(&pair.friction_coefficient, sizeof(Real));
-    mix(&pair.effective_modulus, sizeof(Real));
+    for (const Real value : {pair.effective_modulus, pair.sphere_damping, pair.tangential_stiffness_ratio,
+                             pair.rolling_friction, pair.adhesion})
+      mix(&value, sizeof(value));
   }
   std::visit([&](const auto& chosen) { mix(&chosen.stiffness, sizeof(Real)); }, model.scene.polyhedral_law);
   if (const DepthPotential* depth = depth_potential(model.scene.polyhedral_law)) mix(&depth->depth_cap, sizeof(Real));
