@@ -14,8 +14,8 @@ std::string step_place(const Model& model, const State& state);
 /// energy out of nothing. Does nothing where the scene keeps no ledger.
 void refuse_created_energy(const Model& model, const State& state);
 
-/// Stops a run in which two have been pushed through one another: a depth beyond the smaller body's whole diameter since
-/// the accounts were last collected. Throws std::runtime_error naming step, both and remedy.
+/// Stops a run in which two have been pushed through one another: a depth beyond the smaller body's whole diameter
+/// since the accounts were last collected. Throws std::runtime_error naming step, both and remedy.
 void refuse_pushed_through(const Model& model, const State& state);
 
 }  // namespace dem_gpu

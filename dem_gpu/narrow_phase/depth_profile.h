@@ -39,7 +39,9 @@ struct HardeningProfile {
     const Real p = t.depth_a, q = t.depth_b, r = t.depth_c;
     const Real squares = p * p + q * q + r * r, products = p * q + q * r + r * p, share = rate * t.area;
     sum.depth += share / 6 * (squares + products);
-    const auto weight = [&](Real own, Real others) { return 2 * squares + 4 * own * own + 2 * products + 2 * own * others; };
+    const auto weight = [&](Real own, Real others) {
+      return 2 * squares + 4 * own * own + 2 * products + 2 * own * others;
+    };
     sum.depth_moment += (share / 60) * (weight(p, q + r) * t.a + weight(q, r + p) * t.b + weight(r, p + q) * t.c);
     sum.area += 2 * share / 3 * (p + q + r);
     return sum;

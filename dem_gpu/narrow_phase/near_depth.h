@@ -19,9 +19,7 @@ struct NearDepth {
   ScratchArray<HalfSpace, kMostTermPlanes> term_plane;
   bool is_truncated;
 
-  TALUS_HD DepthField field() const {
-    return {plane.data(), plane_count, term.data(), term_count, term_plane.data()};
-  }
+  TALUS_HD DepthField field() const { return {plane.data(), plane_count, term.data(), term_count, term_plane.data()}; }
 };
 
 /// Depths of the shallowest and deepest vertex below a plane, or bounds of them below a term.

@@ -33,7 +33,8 @@ struct WallIntegralsOf {
   Vec3 area;            // vector area of the surface inside, weighted by d psi / d depth [m2]
   Real largest_depth = 0;
 
-  TALUS_HD void add_triangle(const WallSample& a, const WallSample& b, const WallSample& c, const Vec3& normal, bool is_outer) {
+  TALUS_HD void add_triangle(const WallSample& a, const WallSample& b, const WallSample& c, const Vec3& normal,
+                             bool is_outer) {
     constexpr int kMaxCorners = 6;  // a triangle cut by three fields
     WallSample buffer[2][kMaxCorners] = {{a, b, c}};
     int count = 3, current = 0;
@@ -77,7 +78,8 @@ struct WallIntegralsOf {
             {mix(a.field.depth, b.field.depth), mix(a.field.from_base, b.field.from_base),
              mix(a.field.from_top, b.field.from_top)}};
   }
-  TALUS_HD void add_linear(const WallSample& a, const WallSample& b, const WallSample& c, const Vec3& normal, bool is_outer) {
+  TALUS_HD void add_linear(const WallSample& a, const WallSample& b, const WallSample& c, const Vec3& normal,
+                           bool is_outer) {
     const Real triangle = Real(0.5) * dot(cross(b.position - a.position, c.position - a.position), normal);
     const Real da = a.field.depth, db = b.field.depth, dc = c.field.depth;
     const auto [depth, depth_moment, stiff_area] =
@@ -154,8 +156,7 @@ TALUS_HD void integrate_part_in_wall(const PartView& part, const Pose& pose, con
     if (!face_touches) continue;
     const Vec3 normal = pose.rotation * part.planes[f].normal;
     for (int c = 2; c < face.count; ++c) {
-      const WallSample &first = vertices[corner[0]], &second = vertices[corner[c - 1]],
-                                  &third = vertices[corner[c]];
+      const WallSample &first = vertices[corner[0]], &second = vertices[corner[c - 1]], &third = vertices[corner[c]];
       if (is_curved)
         add_in_pieces(first.position, second.position, third.position, normal, is_outer, longest_piece, sample,
                       integrals);

@@ -107,7 +107,8 @@ TEST(FarApart, BodiesMillionsOfSizesAwayChangeNothing) {
     EXPECT_EQ(alone.position[i], together.position[i]);
     EXPECT_EQ(alone.velocity[i], together.velocity[i]);
   }
-  EXPECT_GT(together.contacts.size(), 0u);
+  // They met on the way: free fall would be faster.
+  EXPECT_GT(together.velocity[1].z, -9.81 * 0.05 + 0.1);
 }
 
 }  // namespace
