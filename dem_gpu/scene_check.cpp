@@ -19,9 +19,6 @@ using catalog::InputError;
 /// Least contact area assumed for a body, over its equivalent diameter squared: a rounded body pressed in by 5 % of its
 /// diameter meets a plane over pi * 0.05 of it.
 constexpr Real kLeastContactArea = 0.16;
-/// Share of a grain's mass that a sphere meets at a corner, where the grain gives way by turning: 1 / (1 + r^2 / k^2)
-/// with r half the diameter and k the radius of gyration of a ball, rounded down.
-constexpr Real kEccentricShare = 0.28;
 /// Longest time step accepted, as a share of the shortest contact: beyond it restitution is off by 1 % and more.
 constexpr Real kFewestSteps = 5;
 /// Below it the dashpot of polyhedra, evaluated once a step, is too stiff for the step.
@@ -81,6 +78,31 @@ Real largest_contact_area(const Shape& shape) {
   const Real diameter = equivalent_diameter(shape, 1), least = kLeastContactArea * diameter * diameter;
   const auto* polyhedron = std::get_if<PolyhedralShape>(&shape.geometry);
   return polyhedron ? std::max(least, largest_flat_area(*polyhedron)) : least;
+}
+
+/// Least share of a body's mass that a push at one of its corners meets, the body giving way by turning:
+/// 1 / (1 + m (r x n) I^-1 (r x n)), over the corners r and the directions n between the faces that meet there.
+Real least_corner_share(const Shape& shape) {
+  const auto* polyhedron = std::get_if<PolyhedralShape>(&shape.geometry);
+  if (!polyhedron) return 1;
+  const Vec3& inertia = shape.principal_inertia;
+  Real largest = 0;
+  const auto try_push = [&](const Vec3& corner, const Vec3& direction) {
+    const Vec3 arm = cross(corner, direction);
+    const Vec3 turned{arm.x / inertia.x, arm.y / inertia.y, arm.z / inertia.z};
+    largest = std::max(largest, shape.volume * dot(arm, turned));
+  };
+  const auto to_vec3 = [](const catalog::Point& p) { return Vec3{p[0], p[1], p[2]}; };
+  for (const catalog::ConvexPart& part : polyhedron->parts) {
+    std::vector<std::vector<Vec3>> normals(part.vertices.size());  // of the outer faces at each corner
+    for (const catalog::ConvexFace& face : part.faces)
+      if (face.kind == catalog::FaceKind::outer)
+        for (const int vertex : face.vertices) normals[vertex].push_back(to_vec3(face.plane.normal));
+    for (std::size_t v = 0; v < normals.size(); ++v)
+      for (const Vec3& one : normals[v])
+        for (const Vec3& other : normals[v]) try_push(to_vec3(part.vertices[v]), unit_or(one + other, one));
+  }
+  return 1 / (1 + largest);
 }
 
 Real mass_of(const Scene& scene, const Body& body) {
@@ -249,6 +271,8 @@ void check_bodies(const Scene& scene) {
     demand(is_positive(body.scale), place, "size must be positive");
     demand(is_finite(body.position) && is_finite(body.velocity) && is_finite(body.angular_velocity), place,
            "position and velocity must be finite");
+    demand(!body.is_fixed || (norm(body.velocity) == 0 && norm(body.angular_velocity) == 0), place,
+           "a fixed body must be at rest; set its velocities to zero, or make it a wall with a motion");
     const Quaternion& q = body.orientation;
     demand(is_positive(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z), place,
            "orientation must be a finite quaternion other than zero");
@@ -291,6 +315,7 @@ void check_run(const Scene& scene) {
   }
   if (const auto* linear = std::get_if<LinearSpring>(&scene.sphere_law); linear && has_shape(scene, true))
     demand(is_positive(linear->stiffness), "contact law of spheres", "stiffness must be positive");
+  demand(scene.run.largest_start_overlap > 0, "run", "largest overlap at the start must be positive");
   demand(scene.run.end_time >= 0 && scene.run.time_step >= 0, "run", "times must not be negative");
   demand(scene.run.time_step > 0 || scene.run.steps_per_contact >= kFewestSteps, "run",
          "steps per contact must be at least 5 where no time step is given");
@@ -330,15 +355,18 @@ void check(const Scene& scene) {
 
 Real shortest_contact_time(const Scene& scene) {
   const Real against_sphere = largest_sphere_stiffness(scene);
-  std::vector<Real> area;
-  for (const Shape& shape : scene.shapes) area.push_back(largest_contact_area(shape));
+  std::vector<Real> area, corner_share;
+  for (const Shape& shape : scene.shapes) {
+    area.push_back(largest_contact_area(shape));
+    corner_share.push_back(against_sphere > 0 ? least_corner_share(shape) : 1);
+  }
   Real shortest = std::numeric_limits<Real>::max();
   for (const Body& body : scene.bodies) {
     const Real effective_mass = mass_of(scene, body) / 2;  // against its like
     const Real stiffness = contact_stiffness(scene, body, area[body.shape]);
     if (std::holds_alternative<PolyhedralShape>(scene.shapes[body.shape].geometry) && against_sphere > 0)
-      shortest =
-          std::min(shortest, std::numbers::pi * std::sqrt(kEccentricShare * mass_of(scene, body) / against_sphere));
+      shortest = std::min(
+          shortest, std::numbers::pi * std::sqrt(corner_share[body.shape] * mass_of(scene, body) / against_sphere));
     shortest = std::min(shortest, std::numbers::pi * std::sqrt(effective_mass / stiffness));
   }
   return shortest;

@@ -13,6 +13,8 @@
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/energy/energy.h"
 #include "dem_gpu/io/checkpoint.h"
+#include "dem_gpu/shapes/least_width.h"
+#include "dem_gpu/start/start_overlap.h"
 #include "dem_gpu/step_builder.h"
 
 namespace dem_gpu {
@@ -89,9 +91,12 @@ void set_bodies(const Scene& scene, BodyConstants& constants, BodyColumns& colum
   const std::size_t n = scene.bodies.size();
   const HostShapeColumns shapes = make_host_shape_columns(scene.shapes, std::nullopt);
   std::vector<int> shape(n), material(n);
-  std::vector<Real> scale(n), mass(n), radius(n), diameter(n);
+  std::vector<Real> scale(n), mass(n), radius(n), diameter(n), width(n);
   std::vector<Vec3> inertia(n), position(n), velocity(n), angular_velocity(n);
   std::vector<Quaternion> orientation(n);
+  std::vector<Real> shape_width;
+  for (const Shape& one : scene.shapes) shape_width.push_back(least_width(one));
+  std::vector<char> active(n);
   for (std::size_t i = 0; i < n; ++i) {
     const Body& body = scene.bodies[i];
     const ShapeRange& range = shapes.shapes[body.shape];
@@ -103,6 +108,8 @@ void set_bodies(const Scene& scene, BodyConstants& constants, BodyColumns& colum
     inertia[i] = (density * s * s * s * s * s) * range.inertia;
     radius[i] = s * range.bounding_radius;
     diameter[i] = s * range.equivalent_diameter;
+    width[i] = s * shape_width[body.shape];
+    active[i] = static_cast<char>(body.is_fixed ? BodyState::fixed : BodyState::moving);
     position[i] = body.position;
     orientation[i] = normalized(body.orientation);
     velocity[i] = body.velocity;
@@ -115,7 +122,8 @@ void set_bodies(const Scene& scene, BodyConstants& constants, BodyColumns& colum
   assign(constants.inertia, inertia);
   assign(constants.bounding_radius, radius);
   assign(constants.diameter, diameter);
-  columns.active.assign(n, 1);
+  assign(constants.least_width, width);
+  assign(columns.active, active);
   assign(columns.position, position);
   assign(columns.orientation, orientation);
   assign(columns.velocity, velocity);
@@ -196,6 +204,18 @@ struct Simulation::Engine {
     const BodyEnergy energy = body_energy(model, state);
     accounts.initial_kinetic = energy.kinetic;
     accounts.initial_gravitational = energy.gravitational;
+    find_forces();
+    refuse_deep_start(model, state);
+    refuse_fast_walls(model, state);
+    if (model.features.has_ledger) accounts.initial_elastic = book_start_energy(model, state);
+  }
+
+  /// Contacts and forces at time 0, as a step of no length: the first half kick needs them.
+  void find_forces() {
+    const Real time_step = std::exchange(model.time_step, Real(0));
+    for (const auto& pass : passes)
+      if (pass->finds_forces()) pass->run(model, state);
+    model.time_step = time_step;
   }
 
   void refuse_truncated_polygons() const {
@@ -268,8 +288,7 @@ std::vector<WallLoad> Simulation::take_wall_loads() {
 }
 
 RunQuality Simulation::quality() const {
-  collect_accounts(engine_->model, engine_->state);
-  const Accounts& accounts = engine_->state.accounts;
+  const Accounts accounts = accounts_so_far(engine_->model, engine_->state);
   const double contact_time = accounts.largest_rate > 0 ? std::numbers::pi / std::sqrt(accounts.largest_rate) : 0;
   return {accounts.largest_overlap, contact_time / engine_->model.time_step, accounts.list_rebuilds};
 }
@@ -291,7 +310,7 @@ Snapshot Simulation::snapshot() const {
   Snapshot snapshot;
   snapshot.time = time();
   snapshot.step = state.step;
-  snapshot.active = to_host(state.bodies.active);
+  for (const char active : to_host(state.bodies.active)) snapshot.active.push_back(active != 0);
   snapshot.position = to_host(state.bodies.position);
   snapshot.orientation = to_host(state.bodies.orientation);
   snapshot.velocity = to_host(state.bodies.velocity);

@@ -37,13 +37,14 @@ struct ContactSide {
 
 TALUS_HD inline ContactSide body_side(const BodyView& bodies, int body) {
   const Vec3 inertia = bodies.inertia[body];
+  const Real movable = bodies.is_fixed(body) ? 0 : 1;
   return {bodies.position[body],
           bodies.predicted_velocity[body],
           bodies.predicted_angular_velocity[body],
           bodies.mean_velocity[body],
           bodies.mean_angular_velocity[body],
-          1 / bodies.mass[body],
-          {1 / inertia.x, 1 / inertia.y, 1 / inertia.z},
+          movable / bodies.mass[body],
+          {movable / inertia.x, movable / inertia.y, movable / inertia.z},
           rotation_matrix(bodies.orientation[body])};
 }
 

@@ -126,6 +126,7 @@ std::int64_t fingerprint(const Model& model) {
   mix_all(to_host(model.bodies.bounding_radius));
   mix_all(to_host(model.bodies.shape));
   mix_all(to_host(model.bodies.material));
+  for (const Body& body : model.scene.bodies) mix(&body.is_fixed, sizeof(bool));
   mix_all(to_host(model.shapes.vertices));
   mix_all(to_host(model.shapes.depth_planes));
   const WallSet at_start(model.scene, static_cast<int>(model.scene.shapes.size()));
@@ -201,6 +202,7 @@ void read_one(const std::filesystem::path& path, const Model& model, State& stat
   Accounts& accounts = state.accounts;
   accounts.wall_load_time = file.double_attribute("wall_load_time");
   accounts.initial_kinetic = file.double_attribute("initial_kinetic");
+  accounts.initial_elastic = file.double_attribute("initial_elastic");
   accounts.initial_gravitational = file.double_attribute("initial_gravitational");
   accounts.removed_energy = file.double_attribute("removed_energy");
   accounts.removed_gravitational = file.double_attribute("removed_gravitational");
@@ -224,6 +226,7 @@ void write_checkpoint_file(const std::filesystem::path& run_folder, const Model&
     const Accounts& accounts = state.accounts;
     file.write_attribute("wall_load_time", accounts.wall_load_time);
     file.write_attribute("initial_kinetic", accounts.initial_kinetic);
+    file.write_attribute("initial_elastic", accounts.initial_elastic);
     file.write_attribute("initial_gravitational", accounts.initial_gravitational);
     file.write_attribute("removed_energy", accounts.removed_energy);
     file.write_attribute("removed_gravitational", accounts.removed_gravitational);

@@ -13,6 +13,8 @@
 #include "catalog/mass_properties.h"
 #include "tests/support/scene_text.h"
 #include "tests/support/temporary_folder.h"
+#include "workflows/run_reports.h"
+#include "workflows/scene_assembly.h"
 
 namespace workflows {
 namespace {
@@ -188,11 +190,30 @@ TEST(SceneReader, ReadsPresetsLawsAndSwitches) {
               "polyhedra = \"volume\"\nstiffness = \"2e7 N/m3\"\nspheres = \"hertz\"\nfriction = false");
   const SceneDescription description = read(text + "[ledger]\nenabled = false\n");
   EXPECT_EQ(description.scene.run.steps_per_contact, 40);
+  EXPECT_EQ(description.scene.run.preset, dem_gpu::Preset::reference);
   EXPECT_TRUE(std::holds_alternative<dem_gpu::OverlapVolume>(description.scene.polyhedral_law));
   EXPECT_TRUE(std::holds_alternative<dem_gpu::Hertz>(description.scene.sphere_law));
   EXPECT_DOUBLE_EQ(*description.stiffness.polyhedra, 2e7);
   EXPECT_FALSE(description.scene.friction);
   EXPECT_FALSE(description.scene.energy_ledger);
+}
+
+TEST(SceneReader, APresetIsAPromiseThatAStepOfOnesOwnMayBreak) {
+  const auto warning_at = [](const std::string& lines) {
+    const SceneDescription description =
+        read(with(drum_scene(), "end_time = \"40 ms\"", "end_time = \"40 ms\"\n" + lines));
+    return start_warning(assemble_scene(description).scene);
+  };
+  EXPECT_FALSE(warning_at(""));
+  EXPECT_FALSE(warning_at("preset = \"draft\""));
+  EXPECT_FALSE(warning_at("preset = \"standard\"\ntime_step = \"1 us\""));
+  const dem_gpu::Scene scene = assemble_scene(read(drum_scene())).scene;
+  const double shortest = dem_gpu::shortest_contact_time(scene);
+  const std::string twelve_steps = "time_step = " + std::to_string(shortest / 12);
+  EXPECT_FALSE(warning_at("preset = \"draft\"\n" + twelve_steps));
+  const auto warning = warning_at(twelve_steps);
+  ASSERT_TRUE(warning);
+  EXPECT_NE(warning->find(" 12 steps, not the 20 that preset \"standard\""), std::string::npos) << *warning;
 }
 
 TEST(SceneReader, CataloguePathsStartFromTheSceneFolder) {
