@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "catalog/input_error.h"
 #include "dem_gpu/bodies/model_state.h"
 #include "dem_gpu/broad_phase/neighbour_list.h"
 #include "dem_gpu/contacts/contact_passes.h"
@@ -247,6 +248,9 @@ void Simulation::advance(std::int64_t steps) {
 void Simulation::push(int body, const Vec3& impulse, const Vec3& angular_impulse) {
   const Model& model = engine_->model;
   BodyColumns& bodies = engine_->state.bodies;
+  if (body < 0 || body >= static_cast<int>(bodies.position.size()))
+    throw catalog::InputError("push: there is no body " + std::to_string(body) + "; the scene has " +
+                              std::to_string(bodies.position.size()) + ", counted from 0");
   const double before = body_energy(model, engine_->state).kinetic;
   const std::size_t i = static_cast<std::size_t>(body);
   const Vec3 turn = rotate_back(bodies.orientation[i], angular_impulse), inertia = model.bodies.inertia[i];

@@ -74,6 +74,7 @@ class Simulation {
 
   /// Gives a body an impulse through its centre and an angular impulse, world frame: a load from outside the engine,
   /// force x time_step() before each step. The ledger counts the energy as initial.
+  /// Throws catalog::InputError if there is no such body.
   void push(int body, const Vec3& impulse, const Vec3& angular_impulse);
 
   double time() const;
