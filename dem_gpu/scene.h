@@ -51,13 +51,16 @@ struct Material {
   std::string name;
   Real density = 0;           // [kg/m3]; not used by walls
   Real youngs_modulus = 5e6;  // [Pa], used by the Hertz law only
-  Real poisson_ratio = 0.3;   // [-], used by the Hertz law only
+  Real poisson_ratio = 0.3;   // [-], used by the Hertz law only, with Mindlin's tangential stiffness
 };
 
 /// Contact of material a with material b.
 struct ContactProperties {
-  Real restitution = 0.5;           // normal, (0, 1]
+  Real restitution = 0.5;           // normal, [0, 1]; at least 0.01 where there are polyhedra
   Real friction_coefficient = 0.5;  // Coulomb, >= 0
+  // Of sphere contacts alone.
+  Real rolling_friction = 0;  // largest rolling couple / (R* F_n), >= 0 [-]
+  Real adhesion = 0;          // work of adhesion, >= 0 [J/m2]
 };
 
 struct Body {
@@ -134,7 +137,7 @@ const DepthPotential* depth_potential(const PolyhedralLaw& law);
 using SphereLaw = std::variant<LinearSpring, Hertz>;
 
 struct Friction {
-  Real tangential_stiffness_ratio = Real(2) / 7;  // tangential over normal stiffness [-]
+  Real tangential_stiffness_ratio = Real(2) / 7;  // tangential over normal stiffness, Hertz contacts apart [-]
 };
 
 /// Steps, times and outputs of a run.
@@ -170,7 +173,11 @@ inline constexpr int kMaxPartVertices = 64;
 inline constexpr int kMaxPartFaces = 124;
 inline constexpr int kMaxFaceCorners = 32;
 
-/// Refuses what cannot be simulated: indices out of range, negative sizes, zero stiffness, restitution outside (0, 1],
+/// Whether any pair of materials has rolling resistance, or adhesion.
+bool has_rolling_friction(const Scene& scene);
+bool has_adhesion(const Scene& scene);
+
+/// Refuses what cannot be simulated: indices out of range, negative sizes, zero stiffness, restitution outside [0, 1],
 /// two walls of one name, no bodies, fixed bodies that move, a time step longer than a fifth of the shortest contact.
 /// Throws catalog::InputError with the place and the remedy.
 void check(const Scene& scene);

@@ -21,6 +21,8 @@ using catalog::InputError;
 constexpr Real kLeastContactArea = 0.16;
 /// Longest time step accepted, as a share of the shortest contact: beyond it restitution is off by 1 % and more.
 constexpr Real kFewestSteps = 5;
+/// Below it the dashpot of polyhedra, evaluated once a step, is too stiff for the step.
+constexpr Real kLeastPolyhedralRestitution = 0.01;
 
 bool is_positive(Real value) { return value > 0 && std::isfinite(value); }
 bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -112,7 +114,7 @@ Real mass_of(const Scene& scene, const Body& body) {
 Real stiffness_per_area_ratio(const PolyhedralLaw& law) { return depth_potential(law) ? 2 : 1; }
 
 Real stiffness_per_area(const PolyhedralLaw& law) {
-  return stiffness_per_area_ratio(law) * std::visit([](const auto& chosen) { return chosen.stiffness; }, law);
+  return std::visit([](const auto& chosen) { return chosen.stiffness_per_area(); }, law);
 }
 
 /// Tangent stiffness of a flat contact as deep as the law reckons with, over that at touch.
@@ -210,6 +212,16 @@ struct CheckWall {
   }
 };
 
+bool has_shape(const Scene& scene, bool sphere) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
+    return std::holds_alternative<SphereShape>(scene.shapes[body.shape].geometry) == sphere;
+  });
+}
+
+void check_not_negative(Real value, const std::string& place, const std::string& name) {
+  demand(value >= 0 && std::isfinite(value), place, name + " must not be negative");
+}
+
 void check_materials(const Scene& scene) {
   demand(!scene.materials.empty(), "materials", "at least one is needed");
   for (const Material& material : scene.materials) {
@@ -219,24 +231,34 @@ void check_materials(const Scene& scene) {
     demand(material.poisson_ratio > -1 && material.poisson_ratio <= Real(0.5), place,
            "Poisson's ratio must lie in -1 .. 0.5");
   }
+}
+
+void check_contacts(const Scene& scene) {
+  const bool has_polyhedra = has_shape(scene, false);
   demand(scene.contact.size() == scene.materials.size(), "contact", "one row a material is needed");
   for (std::size_t i = 0; i < scene.contact.size(); ++i) {
     demand(scene.contact[i].size() == scene.materials.size(), "contact", "one column a material is needed");
     for (std::size_t j = 0; j < scene.contact.size(); ++j) {
       const std::string place = "contact of '" + scene.materials[i].name + "' with '" + scene.materials[j].name + "'";
       const ContactProperties& properties = scene.contact[i][j];
-      demand(properties.restitution >= Real(0.01) && properties.restitution <= 1, place,
-             "restitution must lie in 0.01 .. 1");
-      demand(properties.friction_coefficient >= 0 && std::isfinite(properties.friction_coefficient), place,
-             "friction must not be negative");
+      demand(properties.restitution >= 0 && properties.restitution <= 1, place, "restitution must lie in 0 .. 1");
+      demand(properties.restitution >= kLeastPolyhedralRestitution || !has_polyhedra, place,
+             "restitution of polyhedra must be at least 0.01");
+      check_not_negative(properties.friction_coefficient, place, "friction");
+      check_not_negative(properties.rolling_friction, place, "rolling friction");
+      check_not_negative(properties.adhesion, place, "adhesion");
+      demand(properties.rolling_friction == 0 || scene.friction, place,
+             "rolling friction needs friction, which this scene has turned off");
     }
   }
   for (std::size_t i = 0; i < scene.contact.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       demand(scene.contact[i][j].restitution == scene.contact[j][i].restitution &&
-                 scene.contact[i][j].friction_coefficient == scene.contact[j][i].friction_coefficient,
+                 scene.contact[i][j].friction_coefficient == scene.contact[j][i].friction_coefficient &&
+                 scene.contact[i][j].rolling_friction == scene.contact[j][i].rolling_friction &&
+                 scene.contact[i][j].adhesion == scene.contact[j][i].adhesion,
              "contact of '" + scene.materials[j].name + "' with '" + scene.materials[i].name + "'",
-             "restitution and friction must be the same both ways");
+             "restitution, friction and adhesion must be the same both ways");
 }
 
 void check_bodies(const Scene& scene) {
@@ -272,12 +294,6 @@ void check_walls(const Scene& scene) {
   }
 }
 
-bool has_shape(const Scene& scene, bool sphere) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
-    return std::holds_alternative<SphereShape>(scene.shapes[body.shape].geometry) == sphere;
-  });
-}
-
 void check_run(const Scene& scene) {
   demand(is_finite(scene.gravity), "gravity", "must be finite");
   if (scene.outflow)
@@ -311,11 +327,28 @@ void check_run(const Scene& scene) {
         " steps; use at most " + std::to_string(shortest / 20 * 1e6) + " us (20 steps), or a softer contact law");
 }
 
+template <class Property>
+bool has_positive(const Scene& scene, const Property& property) {
+  for (const std::vector<ContactProperties>& row : scene.contact)
+    for (const ContactProperties& properties : row)
+      if (property(properties) > 0) return true;
+  return false;
+}
+
 }  // namespace
+
+bool has_rolling_friction(const Scene& scene) {
+  return has_positive(scene, [](const ContactProperties& properties) { return properties.rolling_friction; });
+}
+
+bool has_adhesion(const Scene& scene) {
+  return has_positive(scene, [](const ContactProperties& properties) { return properties.adhesion; });
+}
 
 void check(const Scene& scene) {
   check_materials(scene);
   check_bodies(scene);
+  check_contacts(scene);
   check_walls(scene);
   check_run(scene);
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "catalog/input_error.h"
 #include "dem_gpu/bodies/model_state.h"
 #include "dem_gpu/broad_phase/neighbour_list.h"
 #include "dem_gpu/contacts/contact_passes.h"
@@ -46,16 +47,43 @@ Real effective_modulus(const Material& a, const Material& b) {
               (1 - b.poisson_ratio * b.poisson_ratio) / b.youngs_modulus);
 }
 
+/// Effective shear modulus: 1 / G* = sum of (2 - nu) / G, G = E / (2 (1 + nu)).
+Real effective_shear_modulus(const Material& a, const Material& b) {
+  const auto compliance = [](const Material& m) {
+    return 2 * (2 - m.poisson_ratio) * (1 + m.poisson_ratio) / m.youngs_modulus;
+  };
+  return 1 / (compliance(a) + compliance(b));
+}
+
+/// Tangential over normal stiffness of sphere contacts; Hertz: 8 G* a over 2 E* a.
+Real tangential_stiffness_ratio(const Scene& scene, const Material& a, const Material& b) {
+  if (!std::holds_alternative<Hertz>(scene.sphere_law))
+    return scene.friction ? scene.friction->tangential_stiffness_ratio : 0;
+  return 4 * effective_shear_modulus(a, b) / effective_modulus(a, b);
+}
+
 std::vector<PairProperties> pair_properties(const Scene& scene) {
   const std::size_t n = scene.materials.size();
+  const Real sphere_exponent = std::visit([](const auto& law) { return law.kExponent; }, scene.sphere_law);
   std::map<Real, DampingRatios> solved;
+  std::map<Real, Real> solved_for_spheres;
   std::vector<PairProperties> pairs(n * n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
-      const Real restitution = scene.contact[i][j].restitution;
-      if (!solved.contains(restitution)) solved[restitution] = damping_ratios(restitution);
-      pairs[i * n + j] = {solved[restitution], scene.contact[i][j].friction_coefficient,
-                          effective_modulus(scene.materials[i], scene.materials[j])};
+      const ContactProperties& contact = scene.contact[i][j];
+      const Real restitution = contact.restitution;
+      if (!solved.contains(restitution)) {
+        solved[restitution] = damping_ratios(restitution);
+        solved_for_spheres[restitution] = damping_ratio(sphere_exponent, restitution);
+      }
+      const Material &a = scene.materials[i], &b = scene.materials[j];
+      pairs[i * n + j] = {solved[restitution],
+                          contact.friction_coefficient,
+                          effective_modulus(a, b),
+                          solved_for_spheres[restitution],
+                          tangential_stiffness_ratio(scene, a, b),
+                          contact.rolling_friction,
+                          contact.adhesion};
     }
   return pairs;
 }
@@ -133,8 +161,12 @@ Model make_model(const Scene& scene, BodyColumns& columns) {
   model.features.has_friction = scene.friction.has_value();
   model.features.has_ledger = scene.energy_ledger;
   model.features.has_walls = !scene.walls.empty();
+  model.features.has_friction_couples = has_rolling_friction(scene);
+  model.features.has_spheres =
+      std::find(model.body_is_sphere.begin(), model.body_is_sphere.end(), 1) != model.body_is_sphere.end();
   model.features.has_polyhedra =
       std::find(model.body_is_sphere.begin(), model.body_is_sphere.end(), 0) != model.body_is_sphere.end();
+  model.features.has_friction_couples = model.features.has_friction && model.features.has_polyhedra;
   model.time_step = time_step(scene);
   Real mean_diameter = 0;
   for (const Real diameter : to_host(model.bodies.diameter)) mean_diameter += diameter;
@@ -211,6 +243,21 @@ void Simulation::advance(std::int64_t steps) {
     for (const auto& pass : engine_->passes) pass->run(engine_->model, engine_->state);
   engine_->state.accounts.wall_load_time += static_cast<double>(steps) * engine_->model.time_step;
   engine_->refuse_truncated_polygons();
+}
+
+void Simulation::push(int body, const Vec3& impulse, const Vec3& angular_impulse) {
+  const Model& model = engine_->model;
+  BodyColumns& bodies = engine_->state.bodies;
+  if (body < 0 || body >= static_cast<int>(bodies.position.size()))
+    throw catalog::InputError("push: there is no body " + std::to_string(body) + "; the scene has " +
+                              std::to_string(bodies.position.size()) + ", counted from 0");
+  const double before = body_energy(model, engine_->state).kinetic;
+  const std::size_t i = static_cast<std::size_t>(body);
+  const Vec3 turn = rotate_back(bodies.orientation[i], angular_impulse), inertia = model.bodies.inertia[i];
+  bodies.velocity[i] = Vec3(bodies.velocity[i]) + impulse / model.bodies.mass[i];
+  bodies.angular_velocity[i] =
+      Vec3(bodies.angular_velocity[i]) + Vec3{turn.x / inertia.x, turn.y / inertia.y, turn.z / inertia.z};
+  engine_->state.accounts.initial_kinetic += body_energy(model, engine_->state).kinetic - before;
 }
 
 double Simulation::time() const { return engine_->state.time(engine_->model); }

@@ -72,6 +72,11 @@ class Simulation {
   /// point of one moves more than a quarter of its least width in a step, or if energy comes from nothing.
   void advance(std::int64_t steps);
 
+  /// Gives a body an impulse through its centre and an angular impulse, world frame: a load from outside the engine,
+  /// force x time_step() before each step. The ledger counts the energy as initial.
+  /// Throws catalog::InputError if there is no such body.
+  void push(int body, const Vec3& impulse, const Vec3& angular_impulse);
+
   double time() const;
   double time_step() const;
   std::int64_t step() const;

@@ -53,13 +53,17 @@ void read_materials(TomlTable& file, Scene& scene) {
 }
 
 dem_gpu::ContactProperties read_contact(TomlTable& table, const dem_gpu::ContactProperties* defaults) {
-  const Bounds restitution{0.01, 1, false, "from 0.01 to 1"};
+  const Bounds restitution{0, 1, false, "from 0 to 1"};
   dem_gpu::ContactProperties contact;
   contact.restitution = defaults ? table.quantity("restitution", Dimension::ratio, restitution, defaults->restitution)
                                  : table.quantity("restitution", Dimension::ratio, restitution);
   contact.friction_coefficient =
       defaults ? table.quantity("friction", Dimension::ratio, kNotNegative, defaults->friction_coefficient)
                : table.quantity("friction", Dimension::ratio, kNotNegative);
+  const dem_gpu::ContactProperties otherwise = defaults ? *defaults : dem_gpu::ContactProperties{};
+  contact.rolling_friction =
+      table.quantity("rolling_friction", Dimension::ratio, kNotNegative, otherwise.rolling_friction);
+  contact.adhesion = table.quantity("adhesion", Dimension::surface_energy, kNotNegative, otherwise.adhesion);
   table.finish();
   return contact;
 }

@@ -112,13 +112,15 @@ ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, std::optional<
 }
 
 ShapeView view(const ShapeColumns& columns) {
-  return {pointer(columns.shapes), pointer(columns.parts),   pointer(columns.vertices),    pointer(columns.planes),
-          pointer(columns.faces),  pointer(columns.corners), pointer(columns.depth_planes), pointer(columns.depth_terms), pointer(columns.term_planes)};
+  return {pointer(columns.shapes),       pointer(columns.parts),       pointer(columns.vertices),
+          pointer(columns.planes),       pointer(columns.faces),       pointer(columns.corners),
+          pointer(columns.depth_planes), pointer(columns.depth_terms), pointer(columns.term_planes)};
 }
 
 ShapeView view(const HostShapeColumns& columns) {
-  return {columns.shapes.data(), columns.parts.data(),   columns.vertices.data(),    columns.planes.data(),
-          columns.faces.data(),  columns.corners.data(), columns.depth_planes.data(), columns.depth_terms.data(), columns.term_planes.data()};
+  return {columns.shapes.data(),       columns.parts.data(),       columns.vertices.data(),
+          columns.planes.data(),       columns.faces.data(),       columns.corners.data(),
+          columns.depth_planes.data(), columns.depth_terms.data(), columns.term_planes.data()};
 }
 
 }  // namespace dem_gpu
