@@ -161,12 +161,12 @@ Model make_model(const Scene& scene, BodyColumns& columns) {
   model.features.has_friction = scene.friction.has_value();
   model.features.has_ledger = scene.energy_ledger;
   model.features.has_walls = !scene.walls.empty();
-  model.features.has_friction_couples = has_rolling_friction(scene);
   model.features.has_spheres =
       std::find(model.body_is_sphere.begin(), model.body_is_sphere.end(), 1) != model.body_is_sphere.end();
   model.features.has_polyhedra =
       std::find(model.body_is_sphere.begin(), model.body_is_sphere.end(), 0) != model.body_is_sphere.end();
-  model.features.has_friction_couples = model.features.has_friction && model.features.has_polyhedra;
+  model.features.has_friction_couples =
+      has_rolling_friction(scene) || (model.features.has_friction && model.features.has_polyhedra);
   model.time_step = time_step(scene);
   Real mean_diameter = 0;
   for (const Real diameter : to_host(model.bodies.diameter)) mean_diameter += diameter;

@@ -136,7 +136,11 @@ TEST(Checkpoint, RefusesAnotherScene) {
        }},
       {"another material", [](Scene& s) { s.contact[0][0].friction_coefficient = 0.1; }},
       {"another restitution", [](Scene& s) { s.contact[0][0].restitution = 0.9; }},
-      {"no friction", [](Scene& s) { s.friction.reset(); }},
+      {"no friction",
+       [](Scene& s) {
+         s.friction.reset();
+         s.contact[1][1].rolling_friction = 0;
+       }},
       {"another tangential stiffness", [](Scene& s) { s.friction->tangential_stiffness_ratio = 0.5; }},
       {"no ledger", [](Scene& s) { s.energy_ledger = false; }},
       {"another gravity", [](Scene& s) { s.gravity.z = -1; }},
