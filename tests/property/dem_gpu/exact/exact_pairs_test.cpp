@@ -74,6 +74,8 @@ void compare(const Pair& pair, Errors& worst) {
     return std::pow(pose.scale, 3) * catalog::volume_moments(triangulated(part)).volume;
   };
   const double smaller = std::min(volume_of(pair.part_a, pair.poses.a), volume_of(pair.part_b, pair.poses.b));
+  // Thinner than the engine tells from touching: whether it and its faces count is a convention.
+  const bool is_touching = exact.volume <= 2 * tolerance * exact.surface;
   // Nothing overlaps, or so little that the rounding of the input makes it anew.
   const double volume_scale =
       exact.volume > 0 ? std::max(exact.volume_scale(size), kSmallest * size * size * size) : smaller;
@@ -86,8 +88,6 @@ void compare(const Pair& pair, Errors& worst) {
   raise(worst.volume_smaller, error / smaller);
   raise(worst.volume, error / volume_scale);
   raise(worst.symmetry, std::abs(ab.volume - ba.volume) / volume_scale);
-  // Thinner than the engine tells from touching: whether the faces count in S and M is a convention.
-  const bool is_touching = exact.volume <= 2 * tolerance * exact.surface;
   worst.touching += is_touching;
   if (is_touching) return;
   const double area_scale = exact.area_scale(size);

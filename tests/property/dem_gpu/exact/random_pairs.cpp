@@ -168,7 +168,8 @@ Pair contained(Random& random) {
   return pair;
 }
 
-/// Boxes of one attitude: along each axis flush on one side, one on top of the other, or anyhow.
+/// Boxes of one attitude: along each axis flush on one side, one on top of the other, or anyhow; flush to rounding or
+/// with gaps and overlaps down to it.
 Pair coplanar(Random& random) {
   Pair pair{random_box(random), random_box(random), {anywhere(random), {}}};
   if (pick(random, 3) == 0) pair.poses.a.orientation = {};
