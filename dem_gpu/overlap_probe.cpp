@@ -22,9 +22,9 @@ constexpr int kShapeA = 0, kShapeB = 1;
 Pose to_pose(const BodyPose& pose) { return {rotation_matrix(pose.orientation), pose.position, pose.scale}; }
 
 /// The depth field needs its cap; the volume law has no field.
-Real depth_cap_of(const PolyhedralLaw& law) {
+std::optional<Real> depth_cap_of(const PolyhedralLaw& law) {
   const auto* depth = std::get_if<DepthPotential>(&law);
-  return depth ? depth->depth_cap : DepthPotential{}.depth_cap;
+  return depth ? std::optional(depth->depth_cap) : std::nullopt;
 }
 
 template <class Integrals>

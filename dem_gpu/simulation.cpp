@@ -33,9 +33,10 @@ std::vector<Shape> shapes_with_objects(const Scene& scene) {
   return shapes;
 }
 
-Real depth_cap(const Scene& scene) {
+/// The volume law has no depth field.
+std::optional<Real> depth_cap(const Scene& scene) {
   const auto* law = std::get_if<DepthPotential>(&scene.polyhedral_law);
-  return law ? law->depth_cap : 1;
+  return law ? std::optional(law->depth_cap) : std::nullopt;
 }
 
 Real effective_modulus(const Material& a, const Material& b) {
@@ -59,7 +60,7 @@ std::vector<PairProperties> pair_properties(const Scene& scene) {
 
 void set_bodies(const Scene& scene, BodyConstants& constants, BodyColumns& columns) {
   const std::size_t n = scene.bodies.size();
-  const HostShapeColumns shapes = make_host_shape_columns(scene.shapes, 1);
+  const HostShapeColumns shapes = make_host_shape_columns(scene.shapes, std::nullopt);
   std::vector<int> shape(n), material(n);
   std::vector<Real> scale(n), mass(n), radius(n), diameter(n);
   std::vector<Vec3> inertia(n), position(n), velocity(n), angular_velocity(n);
