@@ -267,7 +267,7 @@ nlohmann::ordered_json run_summary(const AssembledScene& assembled, const SceneD
             {"time_step", simulation.time_step()},
             {"wall_seconds", facts.wall_seconds},
             {"backend", backend_name()},
-            {"precision", sizeof(dem_gpu::Real) == sizeof(double) ? "double" : "single"}};
+            {"precision", dem_gpu::kPrecision}};
   if (!facts.error.empty()) json["error"] = facts.error;
   json["energy"] = {{"kinetic", ledger.kinetic},
                     {"gravitational", ledger.gravitational},

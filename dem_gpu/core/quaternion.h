@@ -30,13 +30,9 @@ TALUS_HD inline Quaternion axis_angle(const Vec3& axis, Real angle) {
 }
 
 /// Rotation matrix by its columns: the body axes in the world frame.
-template <class Scalar>
-struct Matrix3 {
-  Vector3<Scalar> column_x{1, 0, 0}, column_y{0, 1, 0}, column_z{0, 0, 1};
+struct Mat3 {
+  Vec3 column_x{1, 0, 0}, column_y{0, 1, 0}, column_z{0, 0, 1};
 };
-
-using Mat3 = Matrix3<Real>;
-using LocalMat3 = Matrix3<LocalReal>;
 
 TALUS_HD inline Mat3 rotation_matrix(const Quaternion& q) {
   const Real xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z;
@@ -46,23 +42,16 @@ TALUS_HD inline Mat3 rotation_matrix(const Quaternion& q) {
           {2 * (xz + wy), 2 * (yz - wx), 1 - 2 * (xx + yy)}};
 }
 
-template <class Scalar>
-TALUS_HD inline Vector3<Scalar> operator*(const Matrix3<Scalar>& m, const std::type_identity_t<Vector3<Scalar>>& v) {
+TALUS_HD inline Vec3 operator*(const Mat3& m, const Vec3& v) {
   return v.x * m.column_x + v.y * m.column_y + v.z * m.column_z;
 }
 /// Transpose times vector: world to body.
-template <class Scalar>
-TALUS_HD inline Vector3<Scalar> transpose_times(const Matrix3<Scalar>& m,
-                                                const std::type_identity_t<Vector3<Scalar>>& v) {
+TALUS_HD inline Vec3 transpose_times(const Mat3& m, const Vec3& v) {
   return {dot(m.column_x, v), dot(m.column_y, v), dot(m.column_z, v)};
 }
 /// transpose(a) * b: the rotation that takes b's frame into a's.
-template <class Scalar>
-TALUS_HD inline Matrix3<Scalar> transpose_times(const Matrix3<Scalar>& a, const Matrix3<Scalar>& b) {
+TALUS_HD inline Mat3 transpose_times(const Mat3& a, const Mat3& b) {
   return {transpose_times(a, b.column_x), transpose_times(a, b.column_y), transpose_times(a, b.column_z)};
-}
-TALUS_HD inline LocalMat3 rounded(const Mat3& m) {
-  return {rounded(m.column_x), rounded(m.column_y), rounded(m.column_z)};
 }
 
 TALUS_HD inline Vec3 rotate(const Quaternion& q, const Vec3& v) { return rotation_matrix(q) * v; }

@@ -17,6 +17,9 @@ struct Vector3 {
   TALUS_HD Vector3& operator-=(const Vector3& b) { return x -= b.x, y -= b.y, z -= b.z, *this; }
   TALUS_HD Vector3& operator*=(Scalar s) { return x *= s, y *= s, z *= s, *this; }
   friend bool operator==(const Vector3&, const Vector3&) = default;
+
+  /// Widening loses nothing, so it needs no word; narrowing is `rounded`.
+  TALUS_HD operator Vector3<double>() const requires std::is_same_v<Scalar, float> { return {x, y, z}; }
 };
 
 using Vec3 = Vector3<Real>;
@@ -88,10 +91,10 @@ TALUS_HD inline Vector3<Scalar> any_perpendicular(const Vector3<Scalar>& n) {
   return side / norm(side);
 }
 
-/// To the precision of contact geometry, and back.
-TALUS_HD inline LocalVec3 rounded(const Vec3& a) {
+/// To the precision of contact geometry.
+template <class Scalar>
+TALUS_HD inline LocalVec3 rounded(const Vector3<Scalar>& a) {
   return {static_cast<LocalReal>(a.x), static_cast<LocalReal>(a.y), static_cast<LocalReal>(a.z)};
 }
-TALUS_HD inline Vec3 widened(const LocalVec3& a) { return {a.x, a.y, a.z}; }
 
 }  // namespace dem_gpu
