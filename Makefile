@@ -7,7 +7,7 @@ CUDA_ARCHITECTURES ?= 90
 NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
 STAGES := talus talus-digitize talus-decompose talus-catalog talus-simulate talus-post
 
-.PHONY: help demo test build install engine test-engines cuda gpu-check exact-pairs format check-format clean
+.PHONY: help demo test build install engine test-engines cuda accuracy gpu-check exact-pairs format check-format clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -46,6 +46,9 @@ cuda: install  ## Compile the CUDA engine and its talus-simulate (where nvcc is)
 	PATH="$(dir $(NVCC)):$$PATH" cmake --preset dem-cuda -DCMAKE_CUDA_ARCHITECTURES="$(CUDA_ARCHITECTURES)"
 	PATH="$(dir $(NVCC)):$$PATH" cmake --build --preset dem-cuda --parallel $(JOBS) --target talus-simulate
 endif
+
+accuracy: build  ## Write docs/accuracy.md: every validation table and bench, with its command (about an hour)
+	workflows/accuracy_report.sh $(BUILD) $(MIXED)
 
 gpu-check: install  ## On a GPU machine: build the CUDA engine with its tests and run them
 	cmake --preset dem-cuda -DCMAKE_CUDA_ARCHITECTURES=native

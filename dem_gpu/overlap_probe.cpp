@@ -23,7 +23,7 @@ Pose to_pose(const BodyPose& pose) { return {rotation_matrix(pose.orientation), 
 
 /// The depth field needs its cap; the volume law has no field.
 std::optional<Real> depth_cap_of(const PolyhedralLaw& law) {
-  const auto* depth = std::get_if<DepthPotential>(&law);
+  const DepthPotential* depth = depth_potential(law);
   return depth ? std::optional(depth->depth_cap) : std::nullopt;
 }
 
@@ -39,7 +39,7 @@ template <class Law>
 bool find_contact(const ShapeView& shapes, const Law& law, const PosePair& poses, SeparatingPlane* separating,
                   ElasticContact& contact) {
   const Pose a = to_pose(poses.a), b = to_pose(poses.b);
-  typename IntegralsOf<Law>::Type integrals;
+  auto integrals = empty_integrals(law, smaller_diameter(shapes, kShapeA, kShapeB, a, b), a.scale, b.scale);
   integrate(shapes, a, b, separating, integrals);
   return integrals.to_contact(law, a, contact);
 }

@@ -9,6 +9,7 @@
 
 #include "catalog/convex_part.h"
 #include "dem_gpu/contacts/laws/depth_potential.h"
+#include "dem_gpu/contacts/laws/hardening_depth_potential.h"
 #include "dem_gpu/contacts/laws/hertz.h"
 #include "dem_gpu/contacts/laws/linear_spring.h"
 #include "dem_gpu/contacts/laws/overlap_volume.h"
@@ -124,7 +125,10 @@ struct Outflow {
   Real height = 0;          // [m]
 };
 
-using PolyhedralLaw = std::variant<DepthPotential, OverlapVolume>;
+using PolyhedralLaw = std::variant<DepthPotential, OverlapVolume, HardeningDepthPotential>;
+/// The depth potential that a law is, hardening or not; null for the volume law.
+const DepthPotential* depth_potential(const PolyhedralLaw& law);
+
 using SphereLaw = std::variant<LinearSpring, Hertz>;
 
 struct Friction {
@@ -174,8 +178,15 @@ Real shortest_contact_time(const Scene& scene);
 /// The time step used: run.time_step, or shortest_contact_time / steps_per_contact [s].
 Real time_step(const Scene& scene);
 
-/// Stiffness of the scene's polyhedral law [N/m3] for which the heaviest body's largest flat face, striking a wall at
-/// `speed`, sinks in by `largest_overlap` (share of the body's equivalent diameter).
-Real stiffness_for_overlap(const Scene& scene, Real speed, Real largest_overlap);
+/// Where the heaviest body strikes in stiffness_for_overlap: with its largest flat face, or with a corner like a cube's.
+enum class OverlapAt { face, corner };
+
+/// Stiffness of the scene's polyhedral law [N/m3] for which the heaviest body, striking a flat wall at `speed` without
+/// turning, sinks in by `largest_overlap` (share of the body's equivalent diameter).
+Real stiffness_for_overlap(const Scene& scene, Real speed, Real largest_overlap, OverlapAt at = OverlapAt::face);
+
+/// The reverse for a flat face: overlap of the heaviest body at its law's stiffness, as a share of its equivalent
+/// diameter.
+Real flat_overlap(const Scene& scene, Real speed);
 
 }  // namespace dem_gpu

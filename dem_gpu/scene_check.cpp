@@ -86,9 +86,17 @@ Real mass_of(const Scene& scene, const Body& body) {
   return scene.materials[body.material].density * scene.shapes[body.shape].volume * scale * scale * scale;
 }
 
+/// Stiffness of two flat faces per area, over the law's stiffness: the depth potential has the fields of both.
+Real stiffness_per_area_ratio(const PolyhedralLaw& law) { return depth_potential(law) ? 2 : 1; }
+
 Real stiffness_per_area(const PolyhedralLaw& law) {
-  if (const auto* depth = std::get_if<DepthPotential>(&law)) return 2 * depth->stiffness;
-  return std::get<OverlapVolume>(law).stiffness;
+  return stiffness_per_area_ratio(law) * std::visit([](const auto& chosen) { return chosen.stiffness; }, law);
+}
+
+/// Tangent stiffness of a flat contact as deep as the law reckons with, over that at touch.
+Real stiffening(const PolyhedralLaw& law) {
+  const auto* hardening = std::get_if<HardeningDepthPotential>(&law);
+  return hardening ? 1 + 2 * hardening->flat_overlap / hardening->hardening : Real(1);
 }
 
 /// Tangent stiffness of a sphere contact pressed in by 2 % of the radius [N/m].
@@ -104,7 +112,7 @@ Real sphere_stiffness(const Scene& scene, const Body& body) {
 Real contact_stiffness(const Scene& scene, const Body& body, Real area) {
   const Shape& shape = scene.shapes[body.shape];
   if (std::holds_alternative<SphereShape>(shape.geometry)) return sphere_stiffness(scene, body);
-  return stiffness_per_area(scene.polyhedral_law) * area * body.scale * body.scale;
+  return stiffening(scene.polyhedral_law) * stiffness_per_area(scene.polyhedral_law) * area * body.scale * body.scale;
 }
 
 /// Stiffest sphere of the scene [N/m]; 0 without spheres.
@@ -114,6 +122,37 @@ Real largest_sphere_stiffness(const Scene& scene) {
     if (std::holds_alternative<SphereShape>(scene.shapes[body.shape].geometry))
       stiffness = std::max(stiffness, sphere_stiffness(scene, body));
   return stiffness;
+}
+
+const Body* heaviest_polyhedron(const Scene& scene) {
+  const Body* heaviest = nullptr;
+  for (const Body& body : scene.bodies)
+    if (std::holds_alternative<PolyhedralShape>(scene.shapes[body.shape].geometry) &&
+        (!heaviest || mass_of(scene, body) > mass_of(scene, *heaviest)))
+      heaviest = &body;
+  return heaviest;
+}
+
+/// overlap / hardening depth, 0 for a law without hardening.
+Real hardened_share(const PolyhedralLaw& law, Real overlap) {
+  const auto* hardening = std::get_if<HardeningDepthPotential>(&law);
+  return hardening ? overlap / hardening->hardening : 0;
+}
+
+/// Energy over stiffness of a body pressed into a flat wall: share * integral of psi(depth) over the overlap,
+/// psi = depth (1 + depth / l). `overlap`: share of the diameter. With its largest flat face, a prism [m5]:
+Real face_energy(const Scene& scene, const Body& body, Real overlap) {
+  const Shape& shape = scene.shapes[body.shape];
+  const Real depth = overlap * equivalent_diameter(shape, body.scale);
+  return stiffness_per_area_ratio(scene.polyhedral_law) * largest_contact_area(shape) * body.scale * body.scale * depth *
+         depth * (Real(0.5) + hardened_share(scene.polyhedral_law, overlap) / 3);
+}
+
+/// With a corner of a cube: a pyramid of section 3 sqrt(3) / 2 t^2 at distance t from its tip, where the depth is d - t.
+Real corner_energy(const Scene& scene, const Body& body, Real overlap) {
+  const Real depth = overlap * equivalent_diameter(scene.shapes[body.shape], body.scale);
+  return stiffness_per_area_ratio(scene.polyhedral_law) * Real(1.5) * std::sqrt(Real(3)) * depth * depth * depth * depth *
+         (Real(1) / 12 + hardened_share(scene.polyhedral_law, overlap) / 30);
 }
 
 struct CheckWall {
@@ -225,8 +264,14 @@ void check_run(const Scene& scene) {
   if (has_shape(scene, false))
     demand(is_positive(stiffness_per_area(scene.polyhedral_law)), "contact law of polyhedra",
            "stiffness must be positive");
-  if (const auto* depth = std::get_if<DepthPotential>(&scene.polyhedral_law); depth && has_shape(scene, false))
+  if (const DepthPotential* depth = depth_potential(scene.polyhedral_law); depth && has_shape(scene, false))
     demand(is_positive(depth->depth_cap), "contact law of polyhedra", "depth cap must be positive");
+  if (const auto* law = std::get_if<HardeningDepthPotential>(&scene.polyhedral_law); law && has_shape(scene, false)) {
+    demand(is_positive(law->hardening), "contact law of polyhedra",
+           "hardening must be positive; leave it out for a law without hardening");
+    demand(law->flat_overlap >= 0 && std::isfinite(law->flat_overlap), "contact law of polyhedra",
+           "the flat overlap must not be negative");
+  }
   if (const auto* linear = std::get_if<LinearSpring>(&scene.sphere_law); linear && has_shape(scene, true))
     demand(is_positive(linear->stiffness), "contact law of spheres", "stiffness must be positive");
   demand(scene.run.end_time >= 0 && scene.run.time_step >= 0, "run", "times must not be negative");
@@ -269,19 +314,31 @@ Real time_step(const Scene& scene) {
   return scene.run.time_step > 0 ? scene.run.time_step : shortest_contact_time(scene) / scene.run.steps_per_contact;
 }
 
-Real stiffness_for_overlap(const Scene& scene, Real speed, Real largest_overlap) {
-  const Body* heaviest = nullptr;
-  for (const Body& body : scene.bodies)
-    if (std::holds_alternative<PolyhedralShape>(scene.shapes[body.shape].geometry) &&
-        (!heaviest || mass_of(scene, body) > mass_of(scene, *heaviest)))
-      heaviest = &body;
+const DepthPotential* depth_potential(const PolyhedralLaw& law) {
+  if (const auto* hardening = std::get_if<HardeningDepthPotential>(&law)) return hardening;
+  return std::get_if<DepthPotential>(&law);
+}
+
+Real stiffness_for_overlap(const Scene& scene, Real speed, Real largest_overlap, OverlapAt at) {
+  const Body* heaviest = heaviest_polyhedron(scene);
   if (!heaviest) return 0;
-  const Shape& shape = scene.shapes[heaviest->shape];
-  const Real depth = largest_overlap * equivalent_diameter(shape, heaviest->scale);
-  // Flat impact on a wall: 1/2 m v^2 = 1/2 (share k A) d^2.
-  const Real share = std::holds_alternative<DepthPotential>(scene.polyhedral_law) ? 2 : 1;
-  return mass_of(scene, *heaviest) * speed * speed /
-         (share * largest_contact_area(shape) * heaviest->scale * heaviest->scale * depth * depth);
+  const Real energy = at == OverlapAt::face ? face_energy(scene, *heaviest, largest_overlap)
+                                            : corner_energy(scene, *heaviest, largest_overlap);
+  return Real(0.5) * mass_of(scene, *heaviest) * speed * speed / energy;
+}
+
+Real flat_overlap(const Scene& scene, Real speed) {
+  const Body* heaviest = heaviest_polyhedron(scene);
+  if (!heaviest) return 0;
+  const Real stiffness = std::visit([](const auto& law) { return law.stiffness; }, scene.polyhedral_law);
+  const Real energy = Real(0.5) * mass_of(scene, *heaviest) * speed * speed / stiffness;
+  Real low = 0, high = 1;
+  while (face_energy(scene, *heaviest, high) < energy) high *= 2;
+  for (int bisection = 0; bisection < 60; ++bisection) {
+    const Real middle = (low + high) / 2;
+    (face_energy(scene, *heaviest, middle) < energy ? low : high) = middle;
+  }
+  return high;
 }
 
 }  // namespace dem_gpu

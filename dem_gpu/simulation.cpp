@@ -35,7 +35,7 @@ std::vector<Shape> shapes_with_objects(const Scene& scene) {
 
 /// The volume law has no depth field.
 std::optional<Real> depth_cap(const Scene& scene) {
-  const auto* law = std::get_if<DepthPotential>(&scene.polyhedral_law);
+  const DepthPotential* law = depth_potential(scene.polyhedral_law);
   return law ? std::optional(law->depth_cap) : std::nullopt;
 }
 

@@ -88,11 +88,13 @@ Json json_of(const dem_gpu::Wall& wall, const Scene& scene) {
 
 Json contact_law(const Scene& scene) {
   Json json;
-  if (const auto* law = std::get_if<dem_gpu::DepthPotential>(&scene.polyhedral_law))
+  if (const dem_gpu::DepthPotential* law = dem_gpu::depth_potential(scene.polyhedral_law))
     json["polyhedra"] = {{"law", "depth_potential"}, {"stiffness", law->stiffness}, {"depth_cap", law->depth_cap}};
   else
     json["polyhedra"] = {{"law", "volume"},
                          {"stiffness", std::get<dem_gpu::OverlapVolume>(scene.polyhedral_law).stiffness}};
+  if (const auto* law = std::get_if<dem_gpu::HardeningDepthPotential>(&scene.polyhedral_law))
+    json["polyhedra"].update({{"hardening", law->hardening}, {"flat_overlap", law->flat_overlap}});
   if (const auto* law = std::get_if<dem_gpu::LinearSpring>(&scene.sphere_law))
     json["spheres"] = {{"law", "linear"}, {"stiffness", law->stiffness}};
   else

@@ -168,9 +168,12 @@ void set_stiffness(const SceneDescription& description, Scene& scene) {
       throw catalog::InputError(file +
                                 ": contact_law: stiffness of polyhedra is missing; state stiffness = \"2e7 N/m3\""
                                 " or largest_overlap with at_speed");
-    polyhedra = dem_gpu::stiffness_for_overlap(scene, choice.at_speed, *choice.largest_overlap);
+    polyhedra = dem_gpu::stiffness_for_overlap(scene, choice.at_speed, *choice.largest_overlap, choice.overlap_at);
   }
   std::visit([&](auto& law) { law.stiffness = polyhedra; }, scene.polyhedral_law);
+  if (auto* hardening = std::get_if<dem_gpu::HardeningDepthPotential>(&scene.polyhedral_law);
+      hardening && has_polyhedra && choice.largest_overlap)
+    hardening->flat_overlap = dem_gpu::flat_overlap(scene, choice.at_speed);
 
   if (auto* spring = std::get_if<dem_gpu::LinearSpring>(&scene.sphere_law)) {
     if (has_spheres && !choice.spheres && !choice.largest_overlap)

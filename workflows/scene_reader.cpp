@@ -104,6 +104,8 @@ void read_contact_law(TomlTable table, SceneDescription& description) {
     dem_gpu::DepthPotential law;
     law.depth_cap = table.quantity("depth_cap", Dimension::ratio, kShare, law.depth_cap);
     scene.polyhedral_law = law;
+    if (const auto hardening = table.optional_quantity("hardening", Dimension::ratio, kPositive))
+      scene.polyhedral_law = dem_gpu::HardeningDepthPotential{law, *hardening};
   } else {
     scene.polyhedral_law = dem_gpu::OverlapVolume{};
   }
@@ -119,6 +121,7 @@ void read_contact_law(TomlTable table, SceneDescription& description) {
     if (stiffness.polyhedra && (stiffness.spheres || is_hertz))
       table.refuse("largest_overlap", "every stiffness is given, so largest_overlap has no meaning; keep one");
     stiffness.at_speed = table.quantity("at_speed", Dimension::speed, kPositive);
+    if (table.has("overlap_at")) stiffness.overlap_at = dem_gpu::OverlapAt{table.choice("overlap_at", {"face", "corner"})};
   } else if (!stiffness.polyhedra && !stiffness.spheres && !is_hertz) {
     table.refuse("state how stiff contacts are: largest_overlap = \"3 %\" with at_speed = \"2 m/s\", or stiffness");
   }

@@ -49,7 +49,8 @@ struct StiffnessChoice {
   std::optional<double> polyhedra;        // [N/m3]
   std::optional<double> spheres;          // [N/m]
   std::optional<double> largest_overlap;  // share of the body's equivalent diameter [-]
-  double at_speed = 0;                    // [m/s]
+  dem_gpu::OverlapAt overlap_at = dem_gpu::OverlapAt::face;
+  double at_speed = 0;  // [m/s]
 };
 
 /// A scene file as written: everything that needs neither catalogue nor engine.

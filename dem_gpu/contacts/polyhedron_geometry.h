@@ -7,16 +7,27 @@
 
 namespace dem_gpu {
 
-template <class Law>
-struct IntegralsOf;
-template <>
-struct IntegralsOf<DepthPotential> {
-  using Type = DepthIntegrals;
-};
-template <>
-struct IntegralsOf<OverlapVolume> {
-  using Type = VolumeIntegrals;
-};
+/// A law's integrals before any overlap. `diameter`: equivalent, of the smaller body [m].
+TALUS_HD inline DepthIntegrals empty_integrals(const DepthPotential&, Real /*diameter*/, Real /*scale_a*/,
+                                               Real /*scale_b*/) {
+  return {};
+}
+TALUS_HD inline VolumeIntegrals empty_integrals(const OverlapVolume&, Real /*diameter*/, Real /*scale_a*/,
+                                                Real /*scale_b*/) {
+  return {};
+}
+TALUS_HD inline DepthIntegralsOf<HardeningProfile> empty_integrals(const HardeningDepthPotential& law, Real diameter,
+                                                                   Real scale_a, Real scale_b) {
+  DepthIntegralsOf<HardeningProfile> integrals;
+  integrals.profile_a.rate = scale_a / (law.hardening * diameter);
+  integrals.profile_b.rate = scale_b / (law.hardening * diameter);
+  return integrals;
+}
+
+TALUS_HD inline Real smaller_diameter(const ShapeView& shapes, int shape_a, int shape_b, const Pose& a, const Pose& b) {
+  return std::min(a.scale * shapes.shapes[shape_a].equivalent_diameter,
+                  b.scale * shapes.shapes[shape_b].equivalent_diameter);
+}
 
 /// Sums a law's integrals over all pairs of parts of two polyhedral bodies. `separating`: the contact's cache, one
 /// entry per pair of parts. False if a polygon was truncated.
@@ -49,20 +60,23 @@ struct PolyhedronGeometry {
 
   TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic) const {
     const Pose pose_a = scene.pose(a);
-    typename IntegralsOf<Law>::Type integrals;
-    SeparatingPlane* separating = scene.contacts.separating + scene.contacts.cache_begin[c];
-    bool is_whole = true;
+    Pose pose_b;
+    int shape_b = 0;
     if constexpr (Partner::kIsWall) {
       const WallRecord& wall = scene.walls[b];
-      const Pose pose_b{rotation_matrix(wall.orientation), wall.point, 1};
-      is_whole =
-          integrate_bodies(scene.shapes, scene.bodies.shape[a], wall.shape, pose_a, pose_b, separating, integrals);
+      pose_b = {rotation_matrix(wall.orientation), wall.point, 1};
+      shape_b = wall.shape;
     } else {
       const Real reach = scene.bodies.bounding_radius[a] + scene.bodies.bounding_radius[b];
       if (norm_squared(scene.bodies.position[b] - pose_a.position) >= reach * reach) return false;
-      is_whole = integrate_bodies(scene.shapes, scene.bodies.shape[a], scene.bodies.shape[b], pose_a, scene.pose(b),
-                                  separating, integrals);
+      pose_b = scene.pose(b);
+      shape_b = scene.bodies.shape[b];
     }
+    const int shape_a = scene.bodies.shape[a];
+    auto integrals = empty_integrals(law, smaller_diameter(scene.shapes, shape_a, shape_b, pose_a, pose_b),
+                                     pose_a.scale, pose_b.scale);
+    const bool is_whole = integrate_bodies(scene.shapes, shape_a, shape_b, pose_a, pose_b,
+                                           scene.contacts.separating + scene.contacts.cache_begin[c], integrals);
     if (!is_whole) scene.contacts.is_truncated[c] = 1;
     return integrals.to_contact(law, pose_a, elastic);
   }

@@ -11,6 +11,17 @@ TALUS_HD Real wall_stiffness(const DepthPotential& law) { return 2 * law.stiffne
 /// F = k V n on a flat wall: the integral of the depth over the surface inside is the overlap volume.
 TALUS_HD Real wall_stiffness(const OverlapVolume& law) { return law.stiffness; }
 
+/// A law's integrals before any overlap. `diameter`: equivalent, of the body [m].
+template <class Law>
+TALUS_HD WallIntegrals empty_wall_integrals(const Law&, Real /*diameter*/) {
+  return {};
+}
+TALUS_HD WallIntegralsOf<HardeningProfile> empty_wall_integrals(const HardeningDepthPotential& law, Real diameter) {
+  WallIntegralsOf<HardeningProfile> integrals;
+  integrals.profile.rate = 1 / (law.hardening * diameter);
+  return integrals;
+}
+
 /// Polyhedron against an analytic wall.
 template <class Law>
 struct PolyhedronWallGeometry {
@@ -21,8 +32,8 @@ struct PolyhedronWallGeometry {
     const WallRecord& wall = scene.walls[b];
     const Pose pose = scene.pose(a);
     if (wall_field(wall, pose.position).depth + scene.bodies.bounding_radius[a] <= 0) return false;
-    WallIntegrals integrals;
     const ShapeRange& shape = scene.shapes.shapes[scene.bodies.shape[a]];
+    auto integrals = empty_wall_integrals(law, pose.scale * shape.equivalent_diameter);
     for (int p = 0; p < shape.part_count; ++p)
       integrate_part_in_wall(part_view(scene.shapes, shape.first_part + p), pose, wall, integrals);
     return integrals.to_contact(wall_stiffness(law), pose.position, elastic);

@@ -152,6 +152,9 @@ std::int64_t fingerprint(const Model& model) {
     mix(&pair.effective_modulus, sizeof(Real));
   }
   std::visit([&](const auto& chosen) { mix(&chosen.stiffness, sizeof(Real)); }, model.scene.polyhedral_law);
+  if (const DepthPotential* depth = depth_potential(model.scene.polyhedral_law)) mix(&depth->depth_cap, sizeof(Real));
+  if (const auto* hardening = std::get_if<HardeningDepthPotential>(&model.scene.polyhedral_law))
+    mix(&hardening->hardening, sizeof(Real));
   const std::size_t sphere_law = model.scene.sphere_law.index();
   mix(&sphere_law, sizeof(sphere_law));
   if (const auto* linear = std::get_if<LinearSpring>(&model.scene.sphere_law)) mix(&linear->stiffness, sizeof(Real));

@@ -55,21 +55,21 @@ struct DepthIntegralsOf {
   TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, bool is_outer, const PartView& a,
                               const FrameChange& b_to_a) {
     const Vec3 normal = b_to_a.direction(plane_b.normal);
-    const PolygonDepth sum = integrate_depth(polygon, a.depth, normal, profile_a);
+    const auto sum = integrate_depth<PolygonDepthOf<Profile>>(polygon, a.depth, normal, profile_a);
     is_truncated |= sum.is_truncated;
-    add(sum.pressure, sum.moment, normal, is_outer);
-    field_a.add(sum.descent, sum.stiffness * normal, normal, is_outer ? sum.largest : 0);
+    add(sum.depth, sum.depth_moment, normal, is_outer);
+    field_a.add(sum.descent, sum.area * normal, normal, is_outer ? sum.largest : 0);
   }
 
   TALUS_HD void add_surface_a(const Polygon& polygon, const HalfSpace& plane_a, bool is_outer, const PartView& b,
                               const FrameChange& b_to_a) {
     const Vec3 normal_in_b = transpose_times(b_to_a.rotation, plane_a.normal);
-    const PolygonDepth sum = integrate_depth(polygon, b.depth, normal_in_b, profile_b);
+    const auto sum = integrate_depth<PolygonDepthOf<Profile>>(polygon, b.depth, normal_in_b, profile_b);
     is_truncated |= sum.is_truncated;
     const Real s = b_to_a.scale, cube = s * s * s;
-    const Vec3 moment_in_a = cube * (s * b_to_a.direction(sum.moment) + sum.pressure * b_to_a.translation);
-    add(cube * sum.pressure, moment_in_a, -plane_a.normal, is_outer);
-    field_b.add((s * s) * b_to_a.direction(sum.descent), (s * s * sum.stiffness) * plane_a.normal, plane_a.normal,
+    const Vec3 moment_in_a = cube * (s * b_to_a.direction(sum.depth_moment) + sum.depth * b_to_a.translation);
+    add(cube * sum.depth, moment_in_a, -plane_a.normal, is_outer);
+    field_b.add((s * s) * b_to_a.direction(sum.descent), (s * s * sum.area) * plane_a.normal, plane_a.normal,
                 is_outer ? s * sum.largest : 0);
   }
 

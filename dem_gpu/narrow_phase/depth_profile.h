@@ -13,11 +13,11 @@ struct DepthTriangle {
   Real area;                       // [m2]
 };
 
-/// Integrals over a triangle of the pressure profile psi of the depth.
+/// Integrals over a triangle of a profile psi of the depth.
 struct TriangleIntegrals {
-  Real pressure;   // integral of psi dA [m3]
-  Vec3 moment;     // integral of x psi dA [m4]
-  Real stiffness;  // integral of d psi / d depth dA [m2]
+  Real depth;         // integral of psi dA [m3]
+  Vec3 depth_moment;  // integral of x psi dA [m4]
+  Real area;          // integral of d psi / d depth dA [m2]
 };
 
 /// psi = depth.
@@ -38,10 +38,10 @@ struct HardeningProfile {
     TriangleIntegrals sum = LinearProfile{}.integrate(t);
     const Real p = t.depth_a, q = t.depth_b, r = t.depth_c;
     const Real squares = p * p + q * q + r * r, products = p * q + q * r + r * p, share = rate * t.area;
-    sum.pressure += share / 6 * (squares + products);
+    sum.depth += share / 6 * (squares + products);
     const auto weight = [&](Real own, Real others) { return 2 * squares + 4 * own * own + 2 * products + 2 * own * others; };
-    sum.moment += (share / 60) * (weight(p, q + r) * t.a + weight(q, r + p) * t.b + weight(r, p + q) * t.c);
-    sum.stiffness += 2 * share / 3 * (p + q + r);
+    sum.depth_moment += (share / 60) * (weight(p, q + r) * t.a + weight(q, r + p) * t.b + weight(r, p + q) * t.c);
+    sum.area += 2 * share / 3 * (p + q + r);
     return sum;
   }
 };

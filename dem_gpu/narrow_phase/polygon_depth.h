@@ -11,20 +11,24 @@
 
 namespace dem_gpu {
 
-/// Integrals of the pressure profile psi of a depth field over one polygon, in the polygon's frame.
-struct PolygonDepth {
-  Real pressure = 0;          // integral of psi dA [m3]
-  Vec3 moment;                // integral of x psi dA [m4]
+/// Integrals of a depth field over one polygon, in the polygon's frame. With psi the profile of the depth (the depth
+/// itself where the law is linear):
+template <class Profile>
+struct PolygonDepthOf {
+  Profile profile{};
+
+  Real depth = 0;             // integral of psi dA [m3]
+  Vec3 depth_moment;          // integral of x psi dA [m4]
   Vec3 descent;               // integral of minus the gradient of psi dA [m2]
-  Real stiffness = 0;         // integral of d psi / d depth dA [m2]
+  Real area = 0;              // integral of d psi / d depth dA [m2]
   Real largest = 0;           // largest depth at a corner [m]
   bool is_truncated = false;  // a corner of a piece did not fit
 };
+using PolygonDepth = PolygonDepthOf<LinearProfile>;
 
 /// Adds a polygon on which the depth is linear: closed form over the triangles of its fan.
-template <class Profile>
-TALUS_HD void add_linear_depth(const Polygon& polygon, const HalfSpace& plane, const Vec3& normal,
-                               const Profile& profile, PolygonDepth& sum) {
+template <class Sum>
+TALUS_HD void add_linear_depth(const Polygon& polygon, const HalfSpace& plane, const Vec3& normal, Sum& sum) {
   DepthTriangle triangle;
   triangle.a = polygon.corner[0];
   triangle.depth_a = depth_below(plane, triangle.a);
@@ -35,11 +39,11 @@ TALUS_HD void add_linear_depth(const Polygon& polygon, const HalfSpace& plane, c
     triangle.c = polygon.corner[c];
     triangle.depth_c = depth_below(plane, triangle.c);
     triangle.area = Real(0.5) * dot(cross(triangle.b - triangle.a, triangle.c - triangle.a), normal);
-    const TriangleIntegrals integrals = profile.integrate(triangle);
-    sum.stiffness += integrals.stiffness;
-    sum.descent += integrals.stiffness * plane.normal;
-    sum.pressure += integrals.pressure;
-    sum.moment += integrals.moment;
+    const TriangleIntegrals integrals = sum.profile.integrate(triangle);
+    sum.area += integrals.area;
+    sum.descent += integrals.area * plane.normal;
+    sum.depth += integrals.depth;
+    sum.depth_moment += integrals.depth_moment;
     sum.largest = std::max(sum.largest, triangle.depth_c);
     triangle.b = triangle.c;
     triangle.depth_b = triangle.depth_c;
@@ -77,9 +81,9 @@ TALUS_HD inline HalfSpace lower_side(const HalfSpace& low, const HalfSpace& high
 
 /// Adds the least depth below `planes` over a polygon: one closed form where one plane is least at all corners, else
 /// piece by piece over the cells in which each plane is the least. The lower index owns a tie.
-template <class Profile>
+template <class Sum>
 TALUS_HD void add_least_depth(const Polygon& polygon, const HalfSpace* planes, int plane_count, const Vec3& normal,
-                              const Profile& profile, PolygonDepth& sum) {
+                              Sum& sum) {
   // A plane is no candidate if another one is below it at every corner: it suffices to compare with the plane whose
   // largest depth is least.
   constexpr int kLargest = NearDepth::kMostPlanes + NearDepth::kMostTerms;
@@ -101,7 +105,7 @@ TALUS_HD void add_least_depth(const Polygon& polygon, const HalfSpace* planes, i
   for (int i = 0; i < plane_count; ++i)
     if (i == flattest || smallest[i] < least_largest) candidate[count++] = static_cast<std::int16_t>(i);
   if (count == 1) {
-    add_linear_depth(polygon, planes[candidate[0]], normal, profile, sum);
+    add_linear_depth(polygon, planes[candidate[0]], normal, sum);
     return;
   }
   Polygon buffer[2];
@@ -112,7 +116,7 @@ TALUS_HD void add_least_depth(const Polygon& polygon, const HalfSpace* planes, i
       if (m != k) cell.keep(lower_side(own, planes[candidate[m]]), k < m);
     if (!cell.piece) continue;
     if (cell.piece->is_truncated) sum.is_truncated = true;
-    add_linear_depth(*cell.piece, own, normal, profile, sum);
+    add_linear_depth(*cell.piece, own, normal, sum);
   }
 }
 
@@ -187,12 +191,13 @@ struct FieldOnPolygon {
 /// Integrates a depth field over a polygon. Where terms change over between their planes the polygon is cut into the
 /// convex pieces on which each term is one plane: every choice of one plane a term is tried, dropping all choices that
 /// begin with one whose piece is empty.
-template <class Profile>
-TALUS_HD PolygonDepth integrate_depth(const Polygon& polygon, const DepthField& field, const Vec3& normal,
-                                      const Profile& profile) {
-  PolygonDepth sum;
+template <class Sum, class Profile>
+TALUS_HD Sum integrate_depth(const Polygon& polygon, const DepthField& field, const Vec3& normal,
+                             const Profile& profile) {
+  Sum sum;
+  sum.profile = profile;
   if (field.term_count == 0) {
-    add_least_depth(polygon, field.planes, field.plane_count, normal, profile, sum);
+    add_least_depth(polygon, field.planes, field.plane_count, normal, sum);
     return sum;
   }
   FieldOnPolygon here(polygon, field);
@@ -212,7 +217,7 @@ TALUS_HD PolygonDepth integrate_depth(const Polygon& polygon, const DepthField& 
     }
     if (shrinking.piece) {
       if (shrinking.piece->is_truncated) sum.is_truncated = true;
-      add_least_depth(*shrinking.piece, here.plane.data(), here.plane_count + here.term_count, normal, profile, sum);
+      add_least_depth(*shrinking.piece, here.plane.data(), here.plane_count + here.term_count, normal, sum);
       level = here.term_count - 1;
     }
     while (level >= 0 && ++choice[level] == here.term[level].count) choice[level--] = 0;

@@ -8,6 +8,7 @@ namespace workflows {
 
 const std::vector<Bench>& benches() {
   static const std::vector<Bench> all{
+      {"bulk", "whole scenes: wall time against error of path, settled height and mill power", plan_bulk_bench},
       {"contact", "single impacts: wall time against error of restitution and contact time", plan_contact_bench},
       {"laws", "contact laws: energy round closed paths, cuts into parts, stiffness exponents", plan_laws_bench},
       {"overlap", "overlap integrals: error against closed forms, time per pair", plan_overlap_bench},

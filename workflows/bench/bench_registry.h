@@ -21,6 +21,7 @@ const std::vector<Bench>& benches();
 const Bench& bench_named(const std::string& name);
 
 // One function a bench, in the file of its name.
+BenchPlan plan_bulk_bench(const BenchOptions& options);
 BenchPlan plan_contact_bench(const BenchOptions& options);
 BenchPlan plan_laws_bench(const BenchOptions& options);
 BenchPlan plan_overlap_bench(const BenchOptions& options);
