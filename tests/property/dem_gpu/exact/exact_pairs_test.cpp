@@ -22,8 +22,11 @@ using dem_gpu::OverlapSolid;
 using dem_gpu::Vec3;
 using exact::Pair;
 
-/// Asked for: error over the exact value, in double precision.
-constexpr double kGoal = 1e-10;
+/// Asked for: error over the exact value, in double precision and in single.
+constexpr double kGoal = test_support::kIsMixed ? 1e-4 : 1e-10;
+/// Share of a class that may be touching or apart. In single precision more is: half the depths of one class are below
+/// its tolerance.
+constexpr double kMostTouching = test_support::kIsMixed ? 0.9 : 0.6;
 /// Smaller overlaps are compared to this, over the cube of the bodies' size: a millionth of the size across, they are
 /// made anew by the rounding of the input.
 constexpr double kSmallest = 1e-18;
@@ -129,7 +132,7 @@ TEST(OverlapIntegrals, EqualExactArithmeticOnRandomPairs) {
         ADD_FAILURE() << kind.name << ", pair " << i << " of seed " << seed << ": error " << worst_of(worst);
       if (HasFatalFailure()) FAIL() << kind.name << ", pair " << i << " of seed " << seed;
     }
-    EXPECT_LT(worst.touching, 0.6 * worst.pairs) << kind.name << ": too few pairs overlap to say anything";
+    EXPECT_LT(worst.touching, kMostTouching * worst.pairs) << kind.name << ": too few pairs overlap to say anything";
     write_row(table, kind.name, worst);
     table.flush();
     ++seed;
