@@ -178,7 +178,8 @@ Real shortest_contact_time(const Scene& scene);
 /// The time step used: run.time_step, or shortest_contact_time / steps_per_contact [s].
 Real time_step(const Scene& scene);
 
-/// Where the heaviest body strikes in stiffness_for_overlap: with its largest flat face, or with a corner like a cube's.
+/// Where the heaviest body strikes in stiffness_for_overlap: with its largest flat face, or with a corner like a
+/// cube's.
 enum class OverlapAt { face, corner };
 
 /// Stiffness of the scene's polyhedral law [N/m3] for which the heaviest body, striking a flat wall at `speed` without

@@ -90,7 +90,7 @@ Real mass_of(const Scene& scene, const Body& body) {
 Real stiffness_per_area_ratio(const PolyhedralLaw& law) { return depth_potential(law) ? 2 : 1; }
 
 Real stiffness_per_area(const PolyhedralLaw& law) {
-  return stiffness_per_area_ratio(law) * std::visit([](const auto& chosen) { return chosen.stiffness; }, law);
+  return std::visit([](const auto& chosen) { return chosen.stiffness_per_area(); }, law);
 }
 
 /// Tangent stiffness of a flat contact as deep as the law reckons with, over that at touch.
@@ -144,15 +144,16 @@ Real hardened_share(const PolyhedralLaw& law, Real overlap) {
 Real face_energy(const Scene& scene, const Body& body, Real overlap) {
   const Shape& shape = scene.shapes[body.shape];
   const Real depth = overlap * equivalent_diameter(shape, body.scale);
-  return stiffness_per_area_ratio(scene.polyhedral_law) * largest_contact_area(shape) * body.scale * body.scale * depth *
-         depth * (Real(0.5) + hardened_share(scene.polyhedral_law, overlap) / 3);
+  return stiffness_per_area_ratio(scene.polyhedral_law) * largest_contact_area(shape) * body.scale * body.scale *
+         depth * depth * (Real(0.5) + hardened_share(scene.polyhedral_law, overlap) / 3);
 }
 
-/// With a corner of a cube: a pyramid of section 3 sqrt(3) / 2 t^2 at distance t from its tip, where the depth is d - t.
+/// With a corner of a cube: a pyramid of section 3 sqrt(3) / 2 t^2 at distance t from its tip, where the depth is d -
+/// t.
 Real corner_energy(const Scene& scene, const Body& body, Real overlap) {
   const Real depth = overlap * equivalent_diameter(scene.shapes[body.shape], body.scale);
-  return stiffness_per_area_ratio(scene.polyhedral_law) * Real(1.5) * std::sqrt(Real(3)) * depth * depth * depth * depth *
-         (Real(1) / 12 + hardened_share(scene.polyhedral_law, overlap) / 30);
+  return stiffness_per_area_ratio(scene.polyhedral_law) * Real(1.5) * std::sqrt(Real(3)) * depth * depth * depth *
+         depth * (Real(1) / 12 + hardened_share(scene.polyhedral_law, overlap) / 30);
 }
 
 struct CheckWall {

@@ -127,6 +127,7 @@ Model make_model(const Scene& scene, BodyColumns& columns) {
   model.features.has_walls = !scene.walls.empty();
   model.features.has_polyhedra =
       std::find(model.body_is_sphere.begin(), model.body_is_sphere.end(), 0) != model.body_is_sphere.end();
+  model.features.has_friction_couples = model.features.has_friction && model.features.has_polyhedra;
   model.time_step = time_step(scene);
   Real mean_diameter = 0;
   for (const Real diameter : to_host(model.bodies.diameter)) mean_diameter += diameter;
@@ -191,6 +192,18 @@ void Simulation::advance(std::int64_t steps) {
     for (const auto& pass : engine_->passes) pass->run(engine_->model, engine_->state);
   engine_->state.accounts.wall_load_time += static_cast<double>(steps) * engine_->model.time_step;
   engine_->refuse_truncated_polygons();
+}
+
+void Simulation::push(int body, const Vec3& impulse, const Vec3& angular_impulse) {
+  const Model& model = engine_->model;
+  BodyColumns& bodies = engine_->state.bodies;
+  const double before = body_energy(model, engine_->state).kinetic;
+  const std::size_t i = static_cast<std::size_t>(body);
+  const Vec3 turn = rotate_back(bodies.orientation[i], angular_impulse), inertia = model.bodies.inertia[i];
+  bodies.velocity[i] = Vec3(bodies.velocity[i]) + impulse / model.bodies.mass[i];
+  bodies.angular_velocity[i] =
+      Vec3(bodies.angular_velocity[i]) + Vec3{turn.x / inertia.x, turn.y / inertia.y, turn.z / inertia.z};
+  engine_->state.accounts.initial_kinetic += body_energy(model, engine_->state).kinetic - before;
 }
 
 double Simulation::time() const { return engine_->state.time(engine_->model); }

@@ -71,6 +71,10 @@ class Simulation {
   /// more than half its size in a step.
   void advance(std::int64_t steps);
 
+  /// Gives a body an impulse through its centre and an angular impulse, world frame: a load from outside the engine,
+  /// force x time_step() before each step. The ledger counts the energy as initial.
+  void push(int body, const Vec3& impulse, const Vec3& angular_impulse);
+
   double time() const;
   double time_step() const;
   std::int64_t step() const;

@@ -121,7 +121,8 @@ void read_contact_law(TomlTable table, SceneDescription& description) {
     if (stiffness.polyhedra && (stiffness.spheres || is_hertz))
       table.refuse("largest_overlap", "every stiffness is given, so largest_overlap has no meaning; keep one");
     stiffness.at_speed = table.quantity("at_speed", Dimension::speed, kPositive);
-    if (table.has("overlap_at")) stiffness.overlap_at = dem_gpu::OverlapAt{table.choice("overlap_at", {"face", "corner"})};
+    if (table.has("overlap_at"))
+      stiffness.overlap_at = dem_gpu::OverlapAt{table.choice("overlap_at", {"face", "corner"})};
   } else if (!stiffness.polyhedra && !stiffness.spheres && !is_hertz) {
     table.refuse("state how stiff contacts are: largest_overlap = \"3 %\" with at_speed = \"2 m/s\", or stiffness");
   }

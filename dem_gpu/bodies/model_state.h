@@ -7,7 +7,7 @@
 
 #include "dem_gpu/bodies/body_columns.h"
 #include "dem_gpu/contacts/contact_columns.h"
-#include "dem_gpu/contacts/contact_response.h"
+#include "dem_gpu/contacts/friction/friction_contact.h"
 #include "dem_gpu/scene.h"
 #include "dem_gpu/shapes/shape_columns.h"
 #include "dem_gpu/simulation.h"

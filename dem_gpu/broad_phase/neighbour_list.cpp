@@ -116,6 +116,8 @@ struct CarryHistory {
         to.separating[to.cache_begin[c] + k] = from.separating[from.cache_begin[old] + k];
     }
     if (features.has_friction) to.tangential_displacement[c] = from.tangential_displacement[old];
+    if (features.has_friction_couples) to.turning_displacement[c] = from.turning_displacement[old];
+    if (features.has_friction && features.has_polyhedra) to.spring_normal[c] = from.spring_normal[old];
     if (features.has_ledger) {
       to.elastic_work[c] = from.elastic_work[old];
       to.tangential_energy[c] = from.tangential_energy[old];
@@ -124,6 +126,7 @@ struct CarryHistory {
       to.last_elastic_torque_b[c] = from.last_elastic_torque_b[old];
       to.last_damping_force[c] = from.last_damping_force[old];
       to.last_friction_force[c] = from.last_friction_force[old];
+      if (features.has_friction_couples) to.last_friction_couple[c] = from.last_friction_couple[old];
     }
   }
 };

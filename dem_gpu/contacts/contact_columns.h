@@ -49,6 +49,12 @@ struct ContactColumns {
   // With friction.
   DeviceVector<Vec3> tangential_displacement;  // of the spring, world frame [m]
 
+  // With friction that resists turning.
+  DeviceVector<Vec3> turning_displacement;  // of the rotational spring: lever x angle, world frame [m]
+
+  // With friction of polyhedra.
+  DeviceVector<Vec3> spring_normal;  // contact normal that the springs last followed, zero if new
+
   // With a ledger.
   DeviceVector<Real> elastic_work;           // recoverable, done against the elastic normal force since touch [J]
   DeviceVector<Real> tangential_energy;      // in the tangential spring [J]
@@ -60,6 +66,7 @@ struct ContactColumns {
   DeviceVector<Vec3> last_elastic_torque_b;  // [N m]
   DeviceVector<Vec3> last_damping_force;     // on a [N]
   DeviceVector<Vec3> last_friction_force;    // on a [N]
+  DeviceVector<Vec3> last_friction_couple;   // on a, with friction that resists turning [N m]
 
   // With walls; zero for pairs of bodies.
   DeviceVector<Vec3> wall_impulse;          // on the wall since last read [N s]
@@ -79,6 +86,8 @@ struct ContactView {
   int* cache_begin;
   SeparatingPlane* separating;
   Vec3* tangential_displacement;
+  Vec3* turning_displacement;
+  Vec3* spring_normal;
   Real* elastic_work;
   Real* tangential_energy;
   Real* loss_normal;
@@ -89,6 +98,7 @@ struct ContactView {
   Vec3* last_elastic_torque_b;
   Vec3* last_damping_force;
   Vec3* last_friction_force;
+  Vec3* last_friction_couple;
   Vec3* wall_impulse;
   Vec3* wall_angular_impulse;
 };
@@ -101,6 +111,7 @@ struct ContactFeatures {
   bool has_ledger = false;
   bool has_walls = false;
   bool has_polyhedra = false;
+  bool has_friction_couples = false;
 };
 
 /// All columns for `count` contacts, zero.

@@ -7,18 +7,22 @@
 
 namespace dem_gpu {
 
-/// A law's integrals before any overlap. `diameter`: equivalent, of the smaller body [m].
-TALUS_HD inline DepthIntegrals empty_integrals(const DepthPotential&, Real /*diameter*/, Real /*scale_a*/,
-                                               Real /*scale_b*/) {
+/// A law's integrals before any overlap, with the sums that friction asks for. `diameter`: equivalent, of the smaller
+/// body [m].
+template <class Sums = NoPatchSums>
+TALUS_HD DepthIntegralsOf<LinearProfile, Sums> empty_integrals(const DepthPotential&, Real /*diameter*/,
+                                                               Real /*scale_a*/, Real /*scale_b*/) {
   return {};
 }
-TALUS_HD inline VolumeIntegrals empty_integrals(const OverlapVolume&, Real /*diameter*/, Real /*scale_a*/,
-                                                Real /*scale_b*/) {
+template <class Sums = NoPatchSums>
+TALUS_HD VolumeIntegralsOf<Sums> empty_integrals(const OverlapVolume&, Real /*diameter*/, Real /*scale_a*/,
+                                                 Real /*scale_b*/) {
   return {};
 }
-TALUS_HD inline DepthIntegralsOf<HardeningProfile> empty_integrals(const HardeningDepthPotential& law, Real diameter,
-                                                                   Real scale_a, Real scale_b) {
-  DepthIntegralsOf<HardeningProfile> integrals;
+template <class Sums = NoPatchSums>
+TALUS_HD DepthIntegralsOf<HardeningProfile, Sums> empty_integrals(const HardeningDepthPotential& law, Real diameter,
+                                                                  Real scale_a, Real scale_b) {
+  DepthIntegralsOf<HardeningProfile, Sums> integrals;
   integrals.profile_a.rate = scale_a / (law.hardening * diameter);
   integrals.profile_b.rate = scale_b / (law.hardening * diameter);
   return integrals;
@@ -58,7 +62,8 @@ struct PolyhedronGeometry {
   using Partner = PartnerKind;
   Law law;
 
-  TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic) const {
+  template <class Patch>
+  TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic, Patch& patch) const {
     const Pose pose_a = scene.pose(a);
     Pose pose_b;
     int shape_b = 0;
@@ -73,12 +78,14 @@ struct PolyhedronGeometry {
       shape_b = scene.bodies.shape[b];
     }
     const int shape_a = scene.bodies.shape[a];
-    auto integrals = empty_integrals(law, smaller_diameter(scene.shapes, shape_a, shape_b, pose_a, pose_b),
-                                     pose_a.scale, pose_b.scale);
+    auto integrals = empty_integrals<PatchSumsFor<Patch>>(
+        law, smaller_diameter(scene.shapes, shape_a, shape_b, pose_a, pose_b), pose_a.scale, pose_b.scale);
     const bool is_whole = integrate_bodies(scene.shapes, shape_a, shape_b, pose_a, pose_b,
                                            scene.contacts.separating + scene.contacts.cache_begin[c], integrals);
     if (!is_whole) scene.contacts.is_truncated[c] = 1;
-    return integrals.to_contact(law, pose_a, elastic);
+    if (!integrals.to_contact(law, pose_a, elastic)) return false;
+    if constexpr (integrals.kHasPatch) patch = integrals.to_patch(law, pose_a, elastic);
+    return true;
   }
 };
 

@@ -10,7 +10,7 @@ struct SphereSphereGeometry {
   using Partner = BodyPartner;
   Law law;
 
-  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic) const {
+  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic, NoPatch&) const {
     const BodyView& bodies = scene.bodies;
     const Vec3 offset = bodies.position[b] - bodies.position[a];
     const Real radius_a = bodies.bounding_radius[a], radius_b = bodies.bounding_radius[b];
@@ -29,7 +29,7 @@ struct SphereWallGeometry {
   using Partner = WallPartner;
   Law law;
 
-  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic) const {
+  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic, NoPatch&) const {
     const WallRecord& wall = scene.walls[b];
     const Real radius = scene.bodies.bounding_radius[a];
     const SurfaceDistance surface = surface_distance(wall, scene.bodies.position[a]);
@@ -42,11 +42,13 @@ struct SphereWallGeometry {
 
 std::unique_ptr<Pass> make_sphere_contacts_pass(const Scene& scene) {
   return make_contact_pass("sphere_contacts", ContactKind::sphere_sphere, scene, scene.sphere_law,
+                           sphere_friction(scene),
                            [](const auto& law) { return SphereSphereGeometry<std::decay_t<decltype(law)>>{law}; });
 }
 
 std::unique_ptr<Pass> make_sphere_wall_contacts_pass(const Scene& scene) {
   return make_contact_pass("sphere_wall_contacts", ContactKind::sphere_wall, scene, scene.sphere_law,
+                           sphere_friction(scene),
                            [](const auto& law) { return SphereWallGeometry<std::decay_t<decltype(law)>>{law}; });
 }
 

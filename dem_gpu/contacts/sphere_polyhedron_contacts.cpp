@@ -12,7 +12,7 @@ struct SpherePolyhedronGeometry {
   using Partner = PartnerKind;
   Law law;
 
-  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic) const {
+  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic, NoPatch&) const {
     const Vec3 centre = scene.bodies.position[a];
     const Real radius = scene.bodies.bounding_radius[a];
     PartDistance nearest;
@@ -36,13 +36,13 @@ struct SpherePolyhedronGeometry {
 
 std::unique_ptr<Pass> make_sphere_polyhedron_contacts_pass(const Scene& scene) {
   return make_contact_pass(
-      "sphere_polyhedron_contacts", ContactKind::sphere_polyhedron, scene, scene.sphere_law,
+      "sphere_polyhedron_contacts", ContactKind::sphere_polyhedron, scene, scene.sphere_law, sphere_friction(scene),
       [](const auto& law) { return SpherePolyhedronGeometry<std::decay_t<decltype(law)>, BodyPartner>{law}; });
 }
 
 std::unique_ptr<Pass> make_sphere_object_contacts_pass(const Scene& scene) {
   return make_contact_pass(
-      "sphere_object_contacts", ContactKind::sphere_object, scene, scene.sphere_law,
+      "sphere_object_contacts", ContactKind::sphere_object, scene, scene.sphere_law, sphere_friction(scene),
       [](const auto& law) { return SpherePolyhedronGeometry<std::decay_t<decltype(law)>, WallPartner>{law}; });
 }
 

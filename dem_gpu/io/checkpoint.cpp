@@ -49,6 +49,8 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("contacts/cache_begin", c.cache_begin);
   visit("contacts/separating", c.separating);
   visit("contacts/tangential_displacement", c.tangential_displacement);
+  visit("contacts/turning_displacement", c.turning_displacement);
+  visit("contacts/spring_normal", c.spring_normal);
   visit("contacts/elastic_work", c.elastic_work);
   visit("contacts/tangential_energy", c.tangential_energy);
   visit("contacts/loss_normal", c.loss_normal);
@@ -59,6 +61,7 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("contacts/last_elastic_torque_b", c.last_elastic_torque_b);
   visit("contacts/last_damping_force", c.last_damping_force);
   visit("contacts/last_friction_force", c.last_friction_force);
+  visit("contacts/last_friction_couple", c.last_friction_couple);
   visit("contacts/wall_impulse", c.wall_impulse);
   visit("contacts/wall_angular_impulse", c.wall_angular_impulse);
   visit("incident/first", state.incident_first);
@@ -140,7 +143,8 @@ std::int64_t fingerprint(const Model& model) {
   }
   if (model.scene.outflow) mix(&*model.scene.outflow, sizeof(Outflow));
   const ContactFeatures& features = model.features;
-  for (const bool has : {features.has_friction, features.has_ledger, features.has_walls, features.has_polyhedra})
+  for (const bool has : {features.has_friction, features.has_ledger, features.has_walls, features.has_polyhedra,
+                         features.has_friction_couples})
     mix(&has, sizeof(has));
   if (model.scene.friction) mix(&*model.scene.friction, sizeof(Friction));
   const std::size_t law = model.scene.polyhedral_law.index();

@@ -13,11 +13,14 @@ namespace dem_gpu {
 ///   force = integral over (b's surface in a) of psi_a n_b dA - integral over (a's surface in b) of psi_b n_a dA
 /// and the moment likewise with x cross n. All faces of the parts enter: the two sides of a cut cancel where they meet,
 /// and where they do not (a ledge) the bare strip counts, so the force is the gradient of the parts' energy whatever
-/// the cut. Only outer faces weigh in the contact point and the depth.
-template <class Profile>
+/// the cut. Only outer faces weigh in the contact point, the depth and the patch sums (PatchSums where there is
+/// friction).
+template <class Profile, class Sums = NoPatchSums>
 struct DepthIntegralsOf {
   static constexpr bool kNeedsInnerFaces = true;
   static constexpr bool kNeedsDepthPlanes = true;
+  static constexpr bool kHasPatch = std::is_same_v<Sums, PatchSums>;
+  using PolygonSum = std::conditional_t<kHasPatch, PolygonPatchDepthOf<Profile>, PolygonDepthOf<Profile>>;
 
   Profile profile_a{}, profile_b{};  // of the fields of a and b, each in that body's unscaled frame
 
@@ -26,6 +29,7 @@ struct DepthIntegralsOf {
   Real weight = 0;            // integral of psi dA over both surfaces [m3]
   Vec3 weighted_point;        // integral of x psi dA [m4]
   bool is_truncated = false;  // a piece of a polygon did not fit
+  Sums patch;
 
   /// How the force changes when the other body moves, from the fields of one body: tangent = integral of minus gradient
   /// (psi) times n^T dA, and what goes with it.
@@ -55,22 +59,31 @@ struct DepthIntegralsOf {
   TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, bool is_outer, const PartView& a,
                               const FrameChange& b_to_a) {
     const Vec3 normal = b_to_a.direction(plane_b.normal);
-    const auto sum = integrate_depth<PolygonDepthOf<Profile>>(polygon, a.depth, normal, profile_a);
+    const auto sum = integrate_depth<PolygonSum>(polygon, a.depth, normal, profile_a);
     is_truncated |= sum.is_truncated;
     add(sum.depth, sum.depth_moment, normal, is_outer);
     field_a.add(sum.descent, sum.area * normal, normal, is_outer ? sum.largest : 0);
+    if constexpr (kHasPatch)
+      if (is_outer) patch.add(patch.side_b, sum.depth, sum.aligned, normal, sum.depth_moment, sum.second_moment);
   }
 
   TALUS_HD void add_surface_a(const Polygon& polygon, const HalfSpace& plane_a, bool is_outer, const PartView& b,
                               const FrameChange& b_to_a) {
     const Vec3 normal_in_b = transpose_times(b_to_a.rotation, plane_a.normal);
-    const auto sum = integrate_depth<PolygonDepthOf<Profile>>(polygon, b.depth, normal_in_b, profile_b);
+    const auto sum = integrate_depth<PolygonSum>(polygon, b.depth, normal_in_b, profile_b);
     is_truncated |= sum.is_truncated;
     const Real s = b_to_a.scale, cube = s * s * s;
     const Vec3 moment_in_a = cube * (s * b_to_a.direction(sum.depth_moment) + sum.depth * b_to_a.translation);
     add(cube * sum.depth, moment_in_a, -plane_a.normal, is_outer);
     field_b.add((s * s) * b_to_a.direction(sum.descent), (s * s * sum.area) * plane_a.normal, plane_a.normal,
                 is_outer ? s * sum.largest : 0);
+    if constexpr (kHasPatch)
+      if (is_outer) {
+        const Vec3& shift = b_to_a.translation;
+        const Real second = cube * (s * s * sum.second_moment + 2 * s * dot(shift, b_to_a.direction(sum.depth_moment)) +
+                                    norm_squared(shift) * sum.depth);
+        patch.add(patch.side_a, cube * sum.depth, cube * sum.aligned, -plane_a.normal, moment_in_a, second);
+      }
   }
 
   /// World-frame contact on body a; nothing if there is no overlap.
@@ -86,6 +99,13 @@ struct DepthIntegralsOf {
     contact.stiffness = law.stiffness * square * (field_a.along(n) + field_b.along(n));
     contact.depth = a.scale * depth_along(n);
     return contact.stiffness > 0;
+  }
+
+  template <class Law>
+  TALUS_HD ContactPatch to_patch(const Law& law, const Pose& a,
+                                 const ElasticContact& /*contact*/) const requires kHasPatch {
+    return {rotated(patch.normals(), a.rotation), law.stiffness * a.scale * a.scale * a.scale * patch.load(),
+            a.scale * patch.lever(), law.stiffness_per_area()};
   }
 
   /// Depth of the overlap along the force: the depth below the planes of the steeper field over its steepness there.

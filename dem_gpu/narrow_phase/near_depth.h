@@ -11,7 +11,7 @@ namespace dem_gpu {
 /// What of a solid's depth field can be the least somewhere in its overlap with the hull of some vertices: a plane or
 /// term is out if all vertices lie deeper below it than the deepest lies below another.
 struct NearDepth {
-  static constexpr int kMostPlanes = 128, kMostTerms = 32, kMostTermPlanes = 128;
+  static constexpr int kMostPlanes = 128, kMostTerms = 64, kMostTermPlanes = 256;
   ScratchArray<HalfSpace, kMostPlanes> plane;
   int plane_count;
   ScratchArray<DepthTerm, kMostTerms> term;
@@ -19,9 +19,7 @@ struct NearDepth {
   ScratchArray<HalfSpace, kMostTermPlanes> term_plane;
   bool is_truncated;
 
-  TALUS_HD DepthField field() const {
-    return {plane.data(), plane_count, term.data(), term_count, term_plane.data()};
-  }
+  TALUS_HD DepthField field() const { return {plane.data(), plane_count, term.data(), term_count, term_plane.data()}; }
 };
 
 /// Depths of the shallowest and deepest vertex below a plane, or bounds of them below a term.

@@ -7,6 +7,7 @@
 
 #include "dem_gpu/narrow_phase/depth_profile.h"
 #include "dem_gpu/narrow_phase/near_depth.h"
+#include "dem_gpu/narrow_phase/patch_sums.h"
 #include "dem_gpu/narrow_phase/polygon.h"
 
 namespace dem_gpu {
@@ -15,6 +16,8 @@ namespace dem_gpu {
 /// itself where the law is linear):
 template <class Profile>
 struct PolygonDepthOf {
+  static constexpr bool kHasPatch = false;
+
   Profile profile{};
 
   Real depth = 0;             // integral of psi dA [m3]
@@ -26,9 +29,19 @@ struct PolygonDepthOf {
 };
 using PolygonDepth = PolygonDepthOf<LinearProfile>;
 
+/// With what friction needs.
+template <class Profile>
+struct PolygonPatchDepthOf : PolygonDepthOf<Profile> {
+  static constexpr bool kHasPatch = true;
+
+  Real aligned = 0;        // the share of psi dA that meets the field at right angles [m3]
+  Real second_moment = 0;  // integral of psi |x|^2 dA [m5]
+};
+
 /// Adds a polygon on which the depth is linear: closed form over the triangles of its fan.
 template <class Sum>
 TALUS_HD void add_linear_depth(const Polygon& polygon, const HalfSpace& plane, const Vec3& normal, Sum& sum) {
+  [[maybe_unused]] const Real depth_before = sum.depth;
   DepthTriangle triangle;
   triangle.a = polygon.corner[0];
   triangle.depth_a = depth_below(plane, triangle.a);
@@ -45,9 +58,11 @@ TALUS_HD void add_linear_depth(const Polygon& polygon, const HalfSpace& plane, c
     sum.depth += integrals.depth;
     sum.depth_moment += integrals.depth_moment;
     sum.largest = std::max(sum.largest, triangle.depth_c);
+    if constexpr (Sum::kHasPatch) sum.second_moment += sum.profile.second_moment(triangle);
     triangle.b = triangle.c;
     triangle.depth_b = triangle.depth_c;
   }
+  if constexpr (Sum::kHasPatch) sum.aligned += aligned_share(-dot(normal, plane.normal)) * (sum.depth - depth_before);
 }
 
 /// A polygon cut down step by step, between two buffers.
@@ -129,31 +144,41 @@ struct FieldOnPolygon {
   ScratchArray<HalfSpace, NearDepth::kMostTermPlanes> term_plane;
 
   TALUS_HD FieldOnPolygon(const Polygon& polygon, const DepthField& field) {
-    const Real limit = least_largest(polygon, field);
-    for (int i = 0; i < field.plane_count; ++i) {
-      bool is_near = false;
-      for (int c = 0; c < polygon.count && !is_near; ++c)
-        is_near = depth_below(field.planes[i], polygon.corner[c]) <= limit;
-      if (is_near) plane[plane_count++] = field.planes[i];
-    }
+    const Ball ball = ball_about(polygon);
+    const Real limit = greatest_possible(ball, field);
+    for (int i = 0; i < field.plane_count; ++i)
+      if (depth_below(field.planes[i], ball.centre) - ball.radius <= limit) plane[plane_count++] = field.planes[i];
     int used = 0;
     for (int t = 0; t < field.term_count; ++t)
-      used += add_term(polygon, field.term_planes + field.terms[t].first, field.terms[t].count, limit, used);
+      used += add_term(polygon, ball, field.term_planes + field.terms[t].first, field.terms[t].count, limit, used);
   }
 
  private:
-  /// The least over planes and terms of the largest depth at a corner: deeper than this the field is nowhere.
-  TALUS_HD static Real least_largest(const Polygon& polygon, const DepthField& field) {
+  struct Ball {
+    Vec3 centre;
+    Real radius;
+  };
+  TALUS_HD static Ball ball_about(const Polygon& polygon) {
+    Vec3 sum;
+    for (int c = 0; c < polygon.count; ++c) sum += polygon.corner[c];
+    const Vec3 centre = sum / static_cast<Real>(polygon.count);
+    Real square = 0;
+    for (int c = 0; c < polygon.count; ++c) square = std::max(square, norm_squared(Vec3(polygon.corner[c]) - centre));
+    return {centre, std::sqrt(square)};
+  }
+
+  /// Deeper than this the field is nowhere in the ball: every depth changes by at most the distance.
+  TALUS_HD static Real greatest_possible(const Ball& ball, const DepthField& field) {
     Real limit = std::numeric_limits<Real>::max();
-    const auto take = [&](const HalfSpace* planes, int count) {
-      Real largest = depth_below(planes[0], polygon.corner[0]);
-      for (int i = 0; i < count; ++i)
-        for (int c = 0; c < polygon.count; ++c) largest = std::max(largest, depth_below(planes[i], polygon.corner[c]));
-      limit = std::min(limit, largest);
-    };
-    for (int i = 0; i < field.plane_count; ++i) take(field.planes + i, 1);
-    for (int t = 0; t < field.term_count; ++t) take(field.term_planes + field.terms[t].first, field.terms[t].count);
-    return limit;
+    for (int i = 0; i < field.plane_count; ++i) limit = std::min(limit, depth_below(field.planes[i], ball.centre));
+    for (int t = 0; t < field.term_count; ++t) {
+      const HalfSpace* planes = field.term_planes + field.terms[t].first;
+      Real depth = depth_below(planes[0], ball.centre);
+      for (int i = 1; i < field.terms[t].count && depth < limit; ++i)
+        depth = std::max(depth, depth_below(planes[i], ball.centre));
+      limit = std::min(limit, depth);
+    }
+    return limit + ball.radius;
   }
 
   /// True if plane k is nowhere on the polygon the greatest of the term; of equal ones the lowest index stays.
@@ -171,14 +196,13 @@ struct FieldOnPolygon {
   }
 
   /// Returns how many term planes were taken up.
-  TALUS_HD int add_term(const Polygon& polygon, const HalfSpace* planes, int count, Real limit, int first) {
+  TALUS_HD int add_term(const Polygon& polygon, const Ball& ball, const HalfSpace* planes, int count, Real limit,
+                        int first) {
+    for (int k = 0; k < count; ++k)
+      if (depth_below(planes[k], ball.centre) - ball.radius > limit) return 0;
     int kept = 0;
-    for (int k = 0; k < count; ++k) {
-      Real low = depth_below(planes[k], polygon.corner[0]);
-      for (int c = 1; c < polygon.count; ++c) low = std::min(low, depth_below(planes[k], polygon.corner[c]));
-      if (low > limit) return 0;  // the term is deeper than the field everywhere
+    for (int k = 0; k < count; ++k)
       if (!is_outdone(polygon, planes, count, k)) term_plane[first + kept++] = planes[k];
-    }
     if (kept == 1) {
       plane[plane_count++] = term_plane[first];
       return 0;

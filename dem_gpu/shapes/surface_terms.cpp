@@ -25,7 +25,8 @@ std::vector<OuterPolygon> outer_polygons(const std::vector<catalog::ConvexPart>&
     for (const catalog::ConvexFace& face : parts[p].faces) {
       if (face.kind != catalog::FaceKind::outer) continue;
       const auto to_vec3 = [](const catalog::Point& q) { return Vec3{q[0], q[1], q[2]}; };
-      OuterPolygon& polygon = polygons.emplace_back(OuterPolygon{p, {}, {to_vec3(face.plane.normal), face.plane.offset}});
+      OuterPolygon& polygon =
+          polygons.emplace_back(OuterPolygon{p, {}, {to_vec3(face.plane.normal), face.plane.offset}});
       for (const int vertex : face.vertices)
         polygon.corners.push_back(to_vec3(parts[p].vertices[static_cast<std::size_t>(vertex)]));
     }
@@ -147,9 +148,9 @@ std::vector<SurfaceTerm> surface_terms(const std::vector<catalog::ConvexPart>& p
     add_rim_planes(own, kTouching * size, term.planes);
     for (const std::size_t j : flat.risen_from[flat.root(g)]) {
       const HalfSpace& plane = polygons[j].plane;
-      const bool is_known = std::any_of(term.planes.end() - static_cast<std::ptrdiff_t>(term.reentrant),
-                                        term.planes.end(),
-                                        [&](const HalfSpace& known) { return is_same_plane(known, plane, size); });
+      const bool is_known =
+          std::any_of(term.planes.end() - static_cast<std::ptrdiff_t>(term.reentrant), term.planes.end(),
+                      [&](const HalfSpace& known) { return is_same_plane(known, plane, size); });
       if (is_known || !lies_in_front(own, plane, kTouching * size)) continue;
       term.planes.push_back(plane);
       ++term.reentrant;

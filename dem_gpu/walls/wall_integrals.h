@@ -6,6 +6,7 @@
 #include "dem_gpu/narrow_phase/depth_profile.h"
 #include "dem_gpu/narrow_phase/part_frame.h"
 #include "dem_gpu/scene.h"
+#include "dem_gpu/walls/wall_patch_sums.h"
 #include "dem_gpu/walls/wall_surface.h"
 
 namespace dem_gpu {
@@ -22,8 +23,10 @@ struct WallSample {
 /// wall's depth over the overlap), so a flat face meets a wall as it meets another flat face. Planes are exact; on
 /// curved walls each face is cut into pieces on which the depth is taken as linear (see kChordError). A hardening law
 /// takes psi = profile(depth) in place of the depth.
-template <class Profile>
+template <class Profile, class Sums = NoPatchSums>
 struct WallIntegralsOf {
+  static constexpr bool kHasPatch = std::is_same_v<Sums, WallPatchSums>;
+
   Profile profile{};
 
   Vec3 force;           // [m3]
@@ -32,8 +35,10 @@ struct WallIntegralsOf {
   Vec3 weighted_point;  // [m4]
   Vec3 area;            // vector area of the surface inside, weighted by d psi / d depth [m2]
   Real largest_depth = 0;
+  Sums patch;
 
-  TALUS_HD void add_triangle(const WallSample& a, const WallSample& b, const WallSample& c, const Vec3& normal, bool is_outer) {
+  TALUS_HD void add_triangle(const WallSample& a, const WallSample& b, const WallSample& c, const Vec3& normal,
+                             bool is_outer) {
     constexpr int kMaxCorners = 6;  // a triangle cut by three fields
     WallSample buffer[2][kMaxCorners] = {{a, b, c}};
     int count = 3, current = 0;
@@ -56,7 +61,7 @@ struct WallIntegralsOf {
       add_linear(buffer[current][0], buffer[current][i - 1], buffer[current][i], normal, is_outer);
   }
 
-  /// `share` of 2 k: 1 for the depth potential.
+  /// `stiffness`: of a flat face on the wall [N/m3].
   TALUS_HD bool to_contact(Real stiffness, const Vec3& centre, ElasticContact& contact) const {
     if (!(weight > 0)) return false;
     contact.force = stiffness * force;
@@ -65,6 +70,12 @@ struct WallIntegralsOf {
     contact.stiffness = stiffness * norm(area);
     contact.depth = largest_depth;
     return set_normal(contact);
+  }
+
+  TALUS_HD ContactPatch to_patch(Real stiffness) const requires kHasPatch {
+    const Real square = patch.second_moment / weight - norm_squared(weighted_point / weight);
+    return {patch.normals(), stiffness * std::max(patch.load, Real(0)), std::sqrt(std::max(square, Real(0))),
+            stiffness};
   }
 
  private:
@@ -77,11 +88,12 @@ struct WallIntegralsOf {
             {mix(a.field.depth, b.field.depth), mix(a.field.from_base, b.field.from_base),
              mix(a.field.from_top, b.field.from_top)}};
   }
-  TALUS_HD void add_linear(const WallSample& a, const WallSample& b, const WallSample& c, const Vec3& normal, bool is_outer) {
+  TALUS_HD void add_linear(const WallSample& a, const WallSample& b, const WallSample& c, const Vec3& normal,
+                           bool is_outer) {
     const Real triangle = Real(0.5) * dot(cross(b.position - a.position, c.position - a.position), normal);
     const Real da = a.field.depth, db = b.field.depth, dc = c.field.depth;
-    const auto [depth, depth_moment, stiff_area] =
-        profile.integrate({a.position, b.position, c.position, da, db, dc, triangle});
+    const DepthTriangle piece{a.position, b.position, c.position, da, db, dc, triangle};
+    const auto [depth, depth_moment, stiff_area] = profile.integrate(piece);
     force -= depth * normal;
     moment -= cross(depth_moment, normal);
     area += stiff_area * normal;
@@ -89,6 +101,8 @@ struct WallIntegralsOf {
     weight += depth;
     weighted_point += depth_moment;
     largest_depth = std::max(largest_depth, std::max(da, std::max(db, dc)));
+    if constexpr (kHasPatch)
+      if (depth > 0) patch.add(depth, normal, depth_moment / depth, profile.second_moment(piece));
   }
 };
 
@@ -154,8 +168,7 @@ TALUS_HD void integrate_part_in_wall(const PartView& part, const Pose& pose, con
     if (!face_touches) continue;
     const Vec3 normal = pose.rotation * part.planes[f].normal;
     for (int c = 2; c < face.count; ++c) {
-      const WallSample &first = vertices[corner[0]], &second = vertices[corner[c - 1]],
-                                  &third = vertices[corner[c]];
+      const WallSample &first = vertices[corner[0]], &second = vertices[corner[c - 1]], &third = vertices[corner[c]];
       if (is_curved)
         add_in_pieces(first.position, second.position, third.position, normal, is_outer, longest_piece, sample,
                       integrals);

@@ -75,10 +75,13 @@ TEST(Repeat, AnyNumberOfThreadsIsTheSame) {
 
 TEST(Repeat, SceneIsWhatItIsMeantToBe) {
   dem_gpu::Simulation simulation(mixed_scene());
-  simulation.advance(kSteps);
-  const auto snapshot = simulation.snapshot();
-  EXPECT_EQ(snapshot.wall_present[2], 0) << "the gate is open";
-  EXPECT_GT(snapshot.contacts.size(), 5u);
+  std::size_t most_contacts = 0;
+  for (int tenth = 0; tenth < 10; ++tenth) {
+    simulation.advance(kSteps / 10);
+    most_contacts = std::max(most_contacts, simulation.snapshot().contacts.size());
+  }
+  EXPECT_EQ(simulation.snapshot().wall_present[2], 0) << "the gate is open";
+  EXPECT_GT(most_contacts, 5u);
   EXPECT_GT(simulation.quality().list_rebuilds, 2);
   const auto ledger = simulation.ledger();
   EXPECT_LT(std::abs(ledger.imbalance()), 0.02 * ledger.throughput);

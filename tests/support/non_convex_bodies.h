@@ -75,9 +75,7 @@ inline Parts boxes_body(const std::vector<BoxCorners>& boxes) {
 }
 
 inline Parts l_in_2() { return boxes_body({{{0, 0, 0}, {2, 1, 1}}, {{0, 1, 0}, {1, 2, 1}}}); }
-inline Parts l_in_3() {
-  return boxes_body({{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 1, 1}}, {{0, 1, 0}, {1, 2, 1}}});
-}
+inline Parts l_in_3() { return boxes_body({{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 1, 1}}, {{0, 1, 0}, {1, 2, 1}}}); }
 inline Parts l_in_6() {
   return boxes_body({{{0, 0, 0}, {0.3, 2, 1}},
                      {{0.3, 1, 0}, {1, 2, 0.5}},
@@ -96,9 +94,7 @@ inline Parts cross_in_5() {
                      {{1, 0, 0}, {2, 1, 1}},
                      {{1, 2, 0}, {2, 3, 1}}});
 }
-inline Parts u_in_3() {
-  return boxes_body({{{0, 0, 0}, {3, 1, 1}}, {{0, 1, 0}, {1, 3, 1}}, {{2, 1, 0}, {3, 3, 1}}});
-}
+inline Parts u_in_3() { return boxes_body({{{0, 0, 0}, {3, 1, 1}}, {{0, 1, 0}, {1, 3, 1}}, {{2, 1, 0}, {3, 3, 1}}}); }
 inline Parts u_in_5() {
   return boxes_body({{{0, 0, 0}, {1, 2, 1}},
                      {{0, 2, 0}, {1, 3, 1}},
@@ -159,10 +155,11 @@ inline Parts prisms_body(const std::vector<std::vector<std::array<double, 2>>>& 
 inline Parts slanted_t(bool cut_otherwise) {
   using P = std::array<double, 2>;
   const P a{-0.4, 0}, b{0.4, 0}, c{0.4, 1.8}, d{-0.4, 1.8}, e{-0.4, 1.3}, f{0.4, 1.3};
-  const P left_low{-1.5, 2.2}, left_high{-1.5, 2.7};                        // slants up from the stem
-  const P right_low{1.3, 0.55}, right_high{1.3, 1.05};                      // slants down
+  const P left_low{-1.5, 2.2}, left_high{-1.5, 2.7};    // slants up from the stem
+  const P right_low{1.3, 0.55}, right_high{1.3, 1.05};  // slants down
   const P top{0.1, 1.8};
-  if (!cut_otherwise) return prisms_body({{a, b, f, c, d, e}, {left_low, e, d, left_high}, {f, right_low, right_high, c}});
+  if (!cut_otherwise)
+    return prisms_body({{a, b, f, c, d, e}, {left_low, e, d, left_high}, {f, right_low, right_high, c}});
   return prisms_body({{a, b, f, e},
                       {e, f, top, d},
                       {f, c, top},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dem_gpu/core/host_device.h"
 #include "dem_gpu/core/real.h"
 
 namespace dem_gpu {
@@ -15,6 +16,9 @@ struct DepthPotential {
   /// k A cap a field. The default is five times the 3 % that a flat contact may sink in, and seldom reached by corners;
   /// limbs thinner than twice the cap are limited by their other side first. Little cost hangs on it.
   Real depth_cap = Real(0.15);
+
+  /// Of two flat faces, at touch [N/m3].
+  TALUS_HD Real stiffness_per_area() const { return 2 * stiffness; }
 };
 
 }  // namespace dem_gpu

@@ -173,6 +173,15 @@ height = "-5 cm"
   EXPECT_DOUBLE_EQ(scene.outflow->height, -0.05);
 }
 
+TEST(SceneReader, ReadsHardeningAndWhereTheOverlapIsMeant) {
+  const SceneDescription description = read(
+      with(drum_scene(), "at_speed = \"1 m/s\"", "at_speed = \"1 m/s\"\noverlap_at = \"corner\"\nhardening = \"2 %\""));
+  const auto& law = std::get<dem_gpu::HardeningDepthPotential>(description.scene.polyhedral_law);
+  EXPECT_DOUBLE_EQ(law.hardening, 0.02);
+  EXPECT_DOUBLE_EQ(law.depth_cap, dem_gpu::DepthPotential{}.depth_cap);
+  EXPECT_EQ(description.stiffness.overlap_at, dem_gpu::OverlapAt::corner);
+}
+
 TEST(SceneReader, ReadsPresetsLawsAndSwitches) {
   std::string text = with(drum_scene(), "end_time = \"40 ms\"", "end_time = \"40 ms\"\npreset = \"reference\"");
   text = with(text, "polyhedra = \"depth_potential\"\nlargest_overlap = \"3 %\"\nat_speed = \"1 m/s\"",
@@ -238,6 +247,10 @@ const BadScene kBadScenes[] = {
     {"definition = \"sieve\", ", "", "{kind", "key 'definition' is missing"},
     {"count = 12\n", "", "[[fill]]\nname = \"blocks\"", "either count or mass"},
     {"largest_overlap = \"3 %\"\nat_speed = \"1 m/s\"", "", "[contact_law]", "how stiff contacts are"},
+    {"at_speed = \"1 m/s\"", "at_speed = \"1 m/s\"\nhardening = 0", "0\n\n[motion.drum]", "it must be more than 0"},
+    {"at_speed = \"1 m/s\"", "at_speed = \"1 m/s\"\noverlap_at = \"edge\"", "\"edge\"", "\"face\", \"corner\""},
+    {"polyhedra = \"depth_potential\"", "polyhedra = \"volume\"\nhardening = \"3 %\"", "hardening",
+     "unknown key 'hardening'"},
     // wrong types
     {"end_time = \"40 ms\"", "end_time = true", "true",
      "end_time is true or false; expected a number in SI, or text ending in one of s, ms"},

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <numbers>
 
 #include "tests/support/dem_runs.h"
 #include "tests/support/non_convex_bodies.h"
@@ -127,7 +128,8 @@ struct TwoCuts {
 };
 
 std::vector<TwoCuts> cut_twice() {
-  return {{"L in 2 and 3", l_in_2(), l_in_3(), {1, 1, 0.5}},
+  return {{"cube in 27 and 1", cut_box({2, 2, 2}, {3, 3, 3}), cut_box({2, 2, 2}, {1, 1, 1}), {0, 0, 0}},
+          {"L in 2 and 3", l_in_2(), l_in_3(), {1, 1, 0.5}},
           {"L in 6 and 3", l_in_6(), l_in_3(), {1, 1, 0.5}},
           {"cross in 3 and 5", cross_in_3(), cross_in_5(), {1.5, 1.5, 0.5}},
           {"U in 3 and 5", u_in_3(), u_in_5(), {1.5, 1.5, 0.5}},
@@ -170,6 +172,55 @@ TEST(DecompositionInvariance, ForceOnANonConvexBodyCutInTwoWays) {
     EXPECT_LT(against_cube, 1e-10) << body.name;
     EXPECT_LT(against_itself, 1e-10) << body.name;
   }
+}
+
+/// Turns a body's principal axes back to the frame its parts are given in.
+Quaternion body_frame(const Parts& parts) {
+  catalog::VolumeMoments moments;
+  for (const catalog::ConvexPart& part : parts) moments += catalog::volume_moments(triangulated(part));
+  const auto axes = catalog::mass_properties(moments).principal_axes;  // rows: the axes in the parts' frame
+  const Vec3 x = to_vec3(axes[0]), y = to_vec3(axes[1]);
+  // First x to its place, then y about it.
+  const Quaternion first = turn_between({1, 0, 0}, x);
+  const Vec3 turned = rotate(first, {0, 1, 0});
+  return dem_gpu::axis_angle(x, std::atan2(dot(cross(turned, y), x), dot(turned, y))) * first;
+}
+
+TEST(DecompositionInvariance, HookedUsHold) {
+  // Two Us, each astride the other's base with a play of 0.2, drawn into each other without friction: they hold by
+  // their shape, whatever the cut, and never pass through. Alone they would be four edges past each other by the end.
+  const Parts coarse = boxes_body({{{0, 0, 0}, {3.2, 1, 1}}, {{0, 1, 0}, {1, 3, 1}}, {{2.2, 1, 0}, {3.2, 3, 1}}});
+  const Parts fine = boxes_body({{{0, 0, 0}, {1, 2, 1}},
+                                 {{0, 2, 0}, {1, 3, 1}},
+                                 {{1, 0, 0}, {2.2, 1, 1}},
+                                 {{2.2, 0, 0}, {3.2, 1.5, 1}},
+                                 {{2.2, 1.5, 0}, {3.2, 3, 1}}});
+  const auto pull = [](const Parts& parts) {
+    Scene scene = empty_scene(0.5, 0);
+    scene.polyhedral_law = dem_gpu::DepthPotential{4e6};
+    scene.shapes = {dem_gpu::polyhedral_shape("U", parts)};
+    // The first opens upwards and its base strikes that of the second, which opens downwards across it.
+    const Real base = (3.2 * 0.5 + 4 * 2) / 7.2;  // height of the centre over the base's outer side
+    const Quaternion upright = body_frame(parts);
+    const Quaternion across = dem_gpu::axis_angle({0, 1, 0}, std::numbers::pi / 2) *
+                              dem_gpu::axis_angle({0, 0, 1}, std::numbers::pi) * upright;
+    scene.bodies = {body_at(0, {0, base, 0}, upright, {0, 1, 0}),
+                    body_at(0, {0.05, 2.05 - base, 0.03}, across, {0, -1, 0})};
+    scene.run.steps_per_contact = 40;
+    Simulation simulation(scene);
+    const Real start = scene.bodies[0].position.y - scene.bodies[1].position.y;
+    Real rise = 0;
+    while (simulation.time() < 2) {
+      run_to(simulation, simulation.time() + 0.05);
+      const auto now = simulation.snapshot();
+      rise = std::max(rise, now.position[0].y - now.position[1].y - start);
+    }
+    EXPECT_LT(simulation.quality().largest_overlap, 0.05);
+    EXPECT_GT(rise, 0.04) << "they came to touch";
+    EXPECT_LT(rise, 0.3) << "the gap of 0.05, and what their play lets them tilt";
+    return simulation.snapshot().position[0];
+  };
+  EXPECT_LT(norm(pull(coarse) - pull(fine)), 1e-9);
 }
 
 }  // namespace

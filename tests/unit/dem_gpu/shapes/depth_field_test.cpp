@@ -15,13 +15,14 @@ namespace {
 using namespace test_support;
 using dem_gpu::PartDepthField;
 
-constexpr Real kCap = 0.4;   // below half the thickness of most limbs: both cap and surface decide somewhere
-constexpr Real kSize = 2;    // scale of tolerances
+constexpr Real kCap = 0.4;  // below half the thickness of most limbs: both cap and surface decide somewhere
+constexpr Real kSize = 2;   // scale of tolerances
 
 struct Body {
   Parts parts;
   std::vector<PartDepthField> fields;
-  explicit Body(Parts from, Real cap = kCap) : parts(std::move(from)), fields(dem_gpu::part_depth_fields(parts, kSize, cap)) {}
+  explicit Body(Parts from, Real cap = kCap)
+      : parts(std::move(from)), fields(dem_gpu::part_depth_fields(parts, kSize, cap)) {}
 
   Real depth_in(std::size_t part, const Vec3& x, Real cap = kCap) const {
     Real least = cap;
@@ -60,8 +61,7 @@ Real distance_to_surface(const Body& body, const Vec3& x) {
       bool is_above = true;
       for (std::size_t c = 0; c < face.vertices.size(); ++c) {
         const Vec3 p = to_vec3(part.vertices[static_cast<std::size_t>(face.vertices[c])]);
-        const Vec3 q =
-            to_vec3(part.vertices[static_cast<std::size_t>(face.vertices[(c + 1) % face.vertices.size()])]);
+        const Vec3 q = to_vec3(part.vertices[static_cast<std::size_t>(face.vertices[(c + 1) % face.vertices.size()])]);
         if (dot(cross(q - p, x - p), normal) < 0) is_above = false;
         nearest = std::min(nearest, distance_to_segment(p, q, x));
       }
@@ -124,9 +124,10 @@ Ratio check_field(const char* name, const Body& body, int samples) {
       ratio.largest = std::max(ratio.largest, depth / distance);
     }
   }
-  std::printf("  %-22s %3zu parts, %4zu planes, %4zu terms: depth over distance %.4f to %.10f, on the surface %.1e, "
-              "across cuts %.1e\n",
-              name, body.parts.size(), planes, terms, ratio.least, ratio.largest, on_surface, across_cuts);
+  std::printf(
+      "  %-22s %3zu parts, %4zu planes, %4zu terms: depth over distance %.4f to %.10f, on the surface %.1e, "
+      "across cuts %.1e\n",
+      name, body.parts.size(), planes, terms, ratio.least, ratio.largest, on_surface, across_cuts);
   EXPECT_LT(on_surface, 1e-10) << name;
   EXPECT_LT(across_cuts, 1e-10) << name;
   EXPECT_LE(ratio.largest, 1 + 1e-10) << name;
