@@ -15,6 +15,7 @@
 #include "dem_gpu/contacts/laws/overlap_volume.h"
 #include "dem_gpu/core/quaternion.h"
 #include "dem_gpu/core/vec3.h"
+#include "dem_gpu/run_promise.h"
 
 namespace dem_gpu {
 
@@ -50,13 +51,16 @@ struct Material {
   std::string name;
   Real density = 0;           // [kg/m3]; not used by walls
   Real youngs_modulus = 5e6;  // [Pa], used by the Hertz law only
-  Real poisson_ratio = 0.3;   // [-], used by the Hertz law only
+  Real poisson_ratio = 0.3;   // [-], used by the Hertz law only, with Mindlin's tangential stiffness
 };
 
 /// Contact of material a with material b.
 struct ContactProperties {
-  Real restitution = 0.5;           // normal, (0, 1]
+  Real restitution = 0.5;           // normal, [0, 1]; at least 0.01 where there are polyhedra
   Real friction_coefficient = 0.5;  // Coulomb, >= 0
+  // Of sphere contacts alone.
+  Real rolling_friction = 0;  // largest rolling couple / (R* F_n), >= 0 [-]
+  Real adhesion = 0;          // work of adhesion, >= 0 [J/m2]
 };
 
 struct Body {
@@ -67,6 +71,7 @@ struct Body {
   Quaternion orientation;
   Vec3 velocity;          // [m/s]
   Vec3 angular_velocity;  // world frame [rad/s]
+  bool is_fixed = false;  // held where it is: meets others as a body of infinite mass; must be at rest
 };
 
 // World objects. The solid is behind the surface: particles live on the side the normal points to (plane, disc) or
@@ -132,17 +137,19 @@ const DepthPotential* depth_potential(const PolyhedralLaw& law);
 using SphereLaw = std::variant<LinearSpring, Hertz>;
 
 struct Friction {
-  Real tangential_stiffness_ratio = Real(2) / 7;  // tangential over normal stiffness [-]
+  Real tangential_stiffness_ratio = Real(2) / 7;  // tangential over normal stiffness, Hertz contacts apart [-]
 };
 
 /// Steps, times and outputs of a run.
 struct RunControl {
-  Real end_time = 0;             // [s]
-  Real time_step = 0;            // [s]; 0: chosen from the stiffest contact
-  Real steps_per_contact = 20;   // in the stiffest contact, where time_step is 0 [-]
-  Real snapshot_interval = 0;    // [s]; 0: none
-  Real checkpoint_interval = 0;  // [s]; 0: only at the end
-  Real series_interval = 0;      // rows of the time series [s]; 0: every snapshot_interval
+  Real end_time = 0;                       // [s]
+  Real time_step = 0;                      // [s]; 0: chosen from the stiffest contact
+  Real steps_per_contact = 20;             // in the stiffest contact, where time_step is 0 [-]
+  Preset preset = Preset::standard;        // what the run promises; a step of one's own may break it
+  Real largest_start_overlap = Real(0.1);  // accepted at time 0, share of the thinner body's least width [-]
+  Real snapshot_interval = 0;              // [s]; 0: none
+  Real checkpoint_interval = 0;            // [s]; 0: only at the end
+  Real series_interval = 0;                // rows of the time series [s]; 0: every snapshot_interval
 };
 
 struct Scene {
@@ -166,9 +173,13 @@ inline constexpr int kMaxPartVertices = 64;
 inline constexpr int kMaxPartFaces = 124;
 inline constexpr int kMaxFaceCorners = 32;
 
-/// Refuses what cannot be simulated: indices out of range, negative sizes, zero stiffness, restitution outside (0, 1],
-/// two walls of one name, no bodies, a time step longer than a fifth of the shortest contact. Throws
-/// catalog::InputError with the place and the remedy.
+/// Whether any pair of materials has rolling resistance, or adhesion.
+bool has_rolling_friction(const Scene& scene);
+bool has_adhesion(const Scene& scene);
+
+/// Refuses what cannot be simulated: indices out of range, negative sizes, zero stiffness, restitution outside [0, 1],
+/// two walls of one name, no bodies, fixed bodies that move, a time step longer than a fifth of the shortest contact.
+/// Throws catalog::InputError with the place and the remedy.
 void check(const Scene& scene);
 
 /// Shortest contact time that the scene can make: pi sqrt(m_eff / stiffness) over face contacts of polyhedra and

@@ -42,6 +42,7 @@ struct Accounts {
   std::vector<Vec3> wall_impulse, wall_angular_impulse;  // per wall, since last taken [N s], [N m s]
   double wall_load_time = 0;                             // since last taken [s]
   double initial_kinetic = 0;                            // [J]
+  double initial_elastic = 0;                            // of contacts that overlap at time 0 [J]
   double initial_gravitational = 0;                      // [J]
   double removed_energy = 0;                             // all that left with removed bodies [J]
   double removed_gravitational = 0;                      // its gravitational part [J]
@@ -67,7 +68,9 @@ struct State {
   Real time(const Model& model) const { return static_cast<Real>(step) * model.time_step; }
 };
 
-/// Empties the contact columns' running sums into the accounts.
+/// The accounts with the contact columns' running sums added.
+Accounts accounts_so_far(const Model& model, const State& state);
+/// Empties those sums into the accounts.
 void collect_accounts(const Model& model, State& state);
 
 }  // namespace dem_gpu

@@ -23,6 +23,7 @@ ContactView view(ContactColumns& c) {
           pointer(c.is_truncated),
           pointer(c.cache_begin),
           pointer(c.separating),
+          pointer(c.owed_kick),
           pointer(c.tangential_displacement),
           pointer(c.turning_displacement),
           pointer(c.spring_normal),
@@ -51,6 +52,7 @@ void resize_columns(ContactColumns& columns, int count, const ContactFeatures& f
   reset(columns.peak_rate, count);
   reset(columns.is_truncated, count);
   reset(columns.cache_begin, features.has_polyhedra ? count + 1 : 0);
+  reset(columns.owed_kick, features.has_spheres ? count : 0);
   reset(columns.tangential_displacement, features.has_friction ? count : 0);
   reset(columns.turning_displacement, features.has_friction_couples ? count : 0);
   reset(columns.spring_normal, features.has_friction && features.has_polyhedra ? count : 0);

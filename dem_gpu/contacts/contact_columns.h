@@ -46,6 +46,9 @@ struct ContactColumns {
   DeviceVector<int> cache_begin;             // first entry in separating, polyhedron pairs
   DeviceVector<SeparatingPlane> separating;  // one per pair of parts, all candidate pairs end to end
 
+  // With spheres.
+  DeviceVector<Real> owed_kick;  // loss of approach speed of the last step that the next one takes [m/s]
+
   // With friction.
   DeviceVector<Vec3> tangential_displacement;  // of the spring, world frame [m]
 
@@ -85,6 +88,7 @@ struct ContactView {
   char* is_truncated;
   int* cache_begin;
   SeparatingPlane* separating;
+  Real* owed_kick;
   Vec3* tangential_displacement;
   Vec3* turning_displacement;
   Vec3* spring_normal;
@@ -112,6 +116,7 @@ struct ContactFeatures {
   bool has_walls = false;
   bool has_polyhedra = false;
   bool has_friction_couples = false;
+  bool has_spheres = false;
 };
 
 /// All columns for `count` contacts, zero.

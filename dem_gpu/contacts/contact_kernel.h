@@ -67,19 +67,19 @@ struct ComputeContact {
     const ContactSide side_a = body_side(scene.bodies, a);
     const ContactSide side_b = other_side(b);
     if (!is_touching) {
-      end_contact<Friction, Record>(scene.contacts, c, side_a, side_b, scene.time_step);
+      end_contact<typename Geometry::Damping, Friction, Record>(scene.contacts, c, side_a, side_b, scene.time_step);
       return;
     }
     const int material_a = scene.bodies.material[a];
     const Real diameter_a = scene.bodies.diameter[a];
     if constexpr (Geometry::Partner::kIsWall)
-      respond<Friction, Record>(scene.contacts, c, elastic, side_a, side_b,
-                                scene.pair(material_a, scene.walls[b].material), friction, patch, scene.time_step,
-                                diameter_a);
+      respond<typename Geometry::Damping, Friction, Record>(scene.contacts, c, elastic, side_a, side_b,
+                                                            scene.pair(material_a, scene.walls[b].material), friction,
+                                                            patch, scene.time_step, diameter_a);
     else
-      respond<Friction, Record>(scene.contacts, c, elastic, side_a, side_b,
-                                scene.pair(material_a, scene.bodies.material[b]), friction, patch, scene.time_step,
-                                std::min(diameter_a, scene.bodies.diameter[b]));
+      respond<typename Geometry::Damping, Friction, Record>(
+          scene.contacts, c, elastic, side_a, side_b, scene.pair(material_a, scene.bodies.material[b]), friction, patch,
+          scene.time_step, std::min(diameter_a, scene.bodies.diameter[b]));
   }
 
   TALUS_HD ContactSide other_side(int b) const {
@@ -112,11 +112,6 @@ class ContactPass : public Pass {
 
 using RecordPolicy = std::variant<NoWorkRecord, WorkRecord>;
 
-/// Friction of sphere contacts.
-inline std::variant<NoFriction, SpringFriction> sphere_friction(const Scene& scene) {
-  if (!scene.friction) return NoFriction{};
-  return SpringFriction{scene.friction->tangential_stiffness_ratio};
-}
 /// Friction of contacts between polyhedra, and with walls.
 inline std::variant<NoFriction, PatchFriction> polyhedron_friction(const Scene& scene) {
   if (!scene.friction) return NoFriction{};

@@ -7,6 +7,7 @@
 #include "dem_gpu/contacts/contact_columns.h"
 #include "dem_gpu/contacts/elastic_contact.h"
 #include "dem_gpu/contacts/friction/friction_contact.h"
+#include "dem_gpu/contacts/normal_damping.h"
 #include "dem_gpu/narrow_phase/part_frame.h"
 #include "dem_gpu/walls/wall_columns.h"
 
@@ -36,13 +37,14 @@ struct ContactSide {
 
 TALUS_HD inline ContactSide body_side(const BodyView& bodies, int body) {
   const Vec3 inertia = bodies.inertia[body];
+  const Real movable = bodies.is_fixed(body) ? 0 : 1;
   return {bodies.position[body],
           bodies.predicted_velocity[body],
           bodies.predicted_angular_velocity[body],
           bodies.mean_velocity[body],
           bodies.mean_angular_velocity[body],
-          1 / bodies.mass[body],
-          {1 / inertia.x, 1 / inertia.y, 1 / inertia.z},
+          movable / bodies.mass[body],
+          {movable / inertia.x, movable / inertia.y, movable / inertia.z},
           rotation_matrix(bodies.orientation[body])};
 }
 
@@ -61,15 +63,6 @@ struct ContactForces {
   Vec3 damping;             // on a [N]
   FrictionForces friction;  // on a
 };
-
-/// Damping along the normal; the whole normal force never pulls.
-TALUS_HD inline Real normal_damping(const ElasticContact& elastic, const PairProperties& pair, Real effective_mass,
-                                    Real approach_speed) {
-  const Real force = norm(elastic.force);
-  const Real exponent = elastic.stiffness * elastic.depth / force;
-  const Real coefficient = 2 * pair.damping.at(exponent) * std::sqrt(effective_mass * elastic.stiffness);
-  return std::max(coefficient * approach_speed, -force);
-}
 
 /// Work of the step that ends now, by the trapezoidal rule over the mean velocities: the same quadrature as the
 /// integrator's, so that the ledger measures its error and adds none of its own.
@@ -115,7 +108,7 @@ TALUS_HD inline void record_work(const ContactView& contacts, int c, const StepW
 }
 
 /// No force this step; the history ends.
-template <class Friction, class Record>
+template <class Damping, class Friction, class Record>
 TALUS_HD void end_contact(const ContactView& contacts, int c, const ContactSide& a, const ContactSide& b,
                           Real time_step) {
   if (contacts.depth[c] == 0) return;
@@ -128,6 +121,7 @@ TALUS_HD void end_contact(const ContactView& contacts, int c, const ContactSide&
     contacts.last_damping_force[c] = contacts.last_friction_force[c] = Vec3{};
     if constexpr (Friction::kHasCouple) contacts.last_friction_couple[c] = Vec3{};
   }
+  Damping::forget(contacts, c);
   if constexpr (Friction::kEnabled) Friction::forget(contacts, c);
   contacts.force[c] = contacts.torque_a[c] = contacts.torque_b[c] = Vec3{};
   contacts.depth[c] = 0;
@@ -149,17 +143,26 @@ TALUS_HD TALUS_ONE_COPY FrictionForces friction_forces(const ContactView& contac
   return friction.apply(contacts, c, contact, patch);
 }
 
+/// Acceleration of approach, negative: centres that pass each other at a velocity part as they go [m/s2].
+TALUS_HD inline Real turning(const ElasticContact& elastic, const Vec3& velocity) {
+  const Real along = dot(velocity, elastic.normal);
+  return -elastic.curvature * (norm_squared(velocity) - along * along);
+}
+
 /// Completes a touching contact: damping, friction, forces on both sides, history, work.
-template <class Friction, class Record>
-TALUS_HD void respond(const ContactView& contacts, int c, const ElasticContact& elastic, const ContactSide& a,
+template <class Damping, class Friction, class Record>
+TALUS_HD void respond(const ContactView& contacts, int c, ElasticContact& elastic, const ContactSide& a,
                       const ContactSide& b, const PairProperties& pair, const Friction& friction,
                       const typename Friction::Patch& patch, Real time_step, Real diameter) {
   const Vec3 slip = a.predicted_velocity_at(elastic.point) - b.predicted_velocity_at(elastic.point);
-  const Real approach_speed = dot(slip, elastic.normal);
+  const Vec3 mean_slip = a.mean_velocity_at(elastic.point) - b.mean_velocity_at(elastic.point);
   const Real effective_mass = 1 / (a.inverse_effective_mass(elastic.point, elastic.normal) +
                                    b.inverse_effective_mass(elastic.point, elastic.normal));
   ContactForces forces;
-  const Real damping = normal_damping(elastic, pair, effective_mass, approach_speed);
+  const Real damping =
+      Damping::apply(contacts, c, elastic,
+                     NormalImpact{pair, effective_mass, dot(mean_slip, elastic.normal), dot(slip, elastic.normal),
+                                  turning(elastic, a.mean_velocity - b.mean_velocity), time_step});
   forces.damping = -damping * elastic.normal;
   if constexpr (Friction::kEnabled)
     forces.friction =

@@ -60,6 +60,7 @@ TALUS_HD bool integrate_bodies(const ShapeView& shapes, int shape_a, int shape_b
 template <class Law, class PartnerKind>
 struct PolyhedronGeometry {
   using Partner = PartnerKind;
+  using Damping = PointDamping;
   Law law;
 
   template <class Patch>

@@ -23,6 +23,7 @@ TALUS_HD WallIntegralsOf<HardeningProfile, Sums> empty_wall_integrals(const Hard
 template <class Law>
 struct PolyhedronWallGeometry {
   using Partner = WallPartner;
+  using Damping = PointDamping;
   Law law;
 
   template <class Patch>

@@ -14,7 +14,7 @@ namespace dem_gpu {
 namespace {
 
 constexpr const char* kKind = "talus-checkpoint";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 constexpr std::int64_t kLocalRealBytes = sizeof(LocalReal);
 
 /// A whole checkpoint that does not fit the simulation: no reason to look at an earlier one.
@@ -48,6 +48,7 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("contacts/is_truncated", c.is_truncated);
   visit("contacts/cache_begin", c.cache_begin);
   visit("contacts/separating", c.separating);
+  visit("contacts/owed_kick", c.owed_kick);
   visit("contacts/tangential_displacement", c.tangential_displacement);
   visit("contacts/turning_displacement", c.turning_displacement);
   visit("contacts/spring_normal", c.spring_normal);
@@ -126,6 +127,7 @@ std::int64_t fingerprint(const Model& model) {
   mix_all(to_host(model.bodies.bounding_radius));
   mix_all(to_host(model.bodies.shape));
   mix_all(to_host(model.bodies.material));
+  for (const Body& body : model.scene.bodies) mix(&body.is_fixed, sizeof(bool));
   mix_all(to_host(model.shapes.vertices));
   mix_all(to_host(model.shapes.depth_planes));
   const WallSet at_start(model.scene, static_cast<int>(model.scene.shapes.size()));
@@ -144,7 +146,7 @@ std::int64_t fingerprint(const Model& model) {
   if (model.scene.outflow) mix(&*model.scene.outflow, sizeof(Outflow));
   const ContactFeatures& features = model.features;
   for (const bool has : {features.has_friction, features.has_ledger, features.has_walls, features.has_polyhedra,
-                         features.has_friction_couples})
+                         features.has_friction_couples, features.has_spheres})
     mix(&has, sizeof(has));
   if (model.scene.friction) mix(&*model.scene.friction, sizeof(Friction));
   const std::size_t law = model.scene.polyhedral_law.index();
@@ -153,7 +155,9 @@ std::int64_t fingerprint(const Model& model) {
   for (const PairProperties& pair : pairs) {
     mix(pair.damping.ratio, sizeof(pair.damping.ratio));
     mix(&pair.friction_coefficient, sizeof(Real));
-    mix(&pair.effective_modulus, sizeof(Real));
+    for (const Real value : {pair.effective_modulus, pair.sphere_damping, pair.tangential_stiffness_ratio,
+                             pair.rolling_friction, pair.adhesion})
+      mix(&value, sizeof(value));
   }
   std::visit([&](const auto& chosen) { mix(&chosen.stiffness, sizeof(Real)); }, model.scene.polyhedral_law);
   if (const DepthPotential* depth = depth_potential(model.scene.polyhedral_law)) mix(&depth->depth_cap, sizeof(Real));
@@ -201,6 +205,7 @@ void read_one(const std::filesystem::path& path, const Model& model, State& stat
   Accounts& accounts = state.accounts;
   accounts.wall_load_time = file.double_attribute("wall_load_time");
   accounts.initial_kinetic = file.double_attribute("initial_kinetic");
+  accounts.initial_elastic = file.double_attribute("initial_elastic");
   accounts.initial_gravitational = file.double_attribute("initial_gravitational");
   accounts.removed_energy = file.double_attribute("removed_energy");
   accounts.removed_gravitational = file.double_attribute("removed_gravitational");
@@ -224,6 +229,7 @@ void write_checkpoint_file(const std::filesystem::path& run_folder, const Model&
     const Accounts& accounts = state.accounts;
     file.write_attribute("wall_load_time", accounts.wall_load_time);
     file.write_attribute("initial_kinetic", accounts.initial_kinetic);
+    file.write_attribute("initial_elastic", accounts.initial_elastic);
     file.write_attribute("initial_gravitational", accounts.initial_gravitational);
     file.write_attribute("removed_energy", accounts.removed_energy);
     file.write_attribute("removed_gravitational", accounts.removed_gravitational);

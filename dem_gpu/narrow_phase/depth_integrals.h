@@ -98,7 +98,10 @@ struct DepthIntegralsOf {
     const Vec3 n = unit_or(force, {0, 0, 1});
     contact.stiffness = law.stiffness * square * (field_a.along(n) + field_b.along(n));
     contact.depth = a.scale * depth_along(n);
-    return contact.stiffness > 0;
+    // Beyond the cap the force grows no more; the secant stands in for the tangent, which damping and friction divide
+    // by.
+    if (!(contact.stiffness > 0)) contact.stiffness = norm(contact.force) / contact.depth;
+    return contact.depth > 0;
   }
 
   template <class Law>

@@ -113,8 +113,12 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
     find_near_depth(a.depth, vertices_b, b_to_a.point(b.range.centre), b_to_a.scale * b.range.radius, near_a);
     find_near_depth(b.depth, vertices_a, a_to_b.point(a.range.centre), a_to_b.scale * a.range.radius, near_b);
     if (near_a.is_truncated || near_b.is_truncated) return OverlapStatus::polygon_truncated;
-    solid_a.depth = near_a.field();
-    solid_b.depth = near_b.field();
+    solid_a.depth.planes = near_a.plane.data();
+    solid_a.depth.plane_count = near_a.plane_count;
+    solid_a.depth.term_count = near_a.term_count;
+    solid_b.depth.planes = near_b.plane.data();
+    solid_b.depth.plane_count = near_b.plane_count;
+    solid_b.depth.term_count = near_b.term_count;
   }
   const int faces_b = Integrals::kNeedsInnerFaces ? b.range.face_count : b.range.outer_face_count;
   const int faces_a = Integrals::kNeedsInnerFaces ? a.range.face_count : a.range.outer_face_count;

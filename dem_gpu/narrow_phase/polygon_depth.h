@@ -89,6 +89,11 @@ struct ShrinkingPolygon {
   }
 };
 
+/// Planes that a depth field may have near one polygon, those of terms that are one plane there among them; and terms
+/// that are not, with their planes.
+inline constexpr int kMostPlanesOnPolygon = NearDepth::kMostPlanes + 64;
+inline constexpr int kMostTermsOnPolygon = 48, kMostTermPlanesOnPolygon = 160;
+
 /// Where the depth below `low` is at most that below `high`.
 TALUS_HD inline HalfSpace lower_side(const HalfSpace& low, const HalfSpace& high) {
   return {high.normal - low.normal, high.offset - low.offset};
@@ -101,7 +106,7 @@ TALUS_HD void add_least_depth(const Polygon& polygon, const HalfSpace* planes, i
                               Sum& sum) {
   // A plane is no candidate if another one is below it at every corner: it suffices to compare with the plane whose
   // largest depth is least.
-  constexpr int kLargest = NearDepth::kMostPlanes + NearDepth::kMostTerms;
+  constexpr int kLargest = kMostPlanesOnPolygon;
   ScratchArray<Real, kLargest> smallest;
   ScratchArray<std::int16_t, kLargest> candidate;
   Real least_largest = std::numeric_limits<Real>::max();
@@ -137,11 +142,12 @@ TALUS_HD void add_least_depth(const Polygon& polygon, const HalfSpace* planes, i
 
 /// A depth field over one polygon: its planes, and the terms that change from one of their planes to another there.
 struct FieldOnPolygon {
-  ScratchArray<HalfSpace, NearDepth::kMostPlanes + NearDepth::kMostTerms> plane;  // room for one a term at the end
+  ScratchArray<HalfSpace, kMostPlanesOnPolygon> plane;  // room for one a term at the end
   int plane_count = 0;
-  ScratchArray<DepthTerm, NearDepth::kMostTerms> term;
+  ScratchArray<DepthTerm, kMostTermsOnPolygon> term;
   int term_count = 0;
-  ScratchArray<HalfSpace, NearDepth::kMostTermPlanes> term_plane;
+  ScratchArray<HalfSpace, kMostTermPlanesOnPolygon> term_plane;
+  bool is_truncated = false;
 
   TALUS_HD FieldOnPolygon(const Polygon& polygon, const DepthField& field) {
     const Ball ball = ball_about(polygon);
@@ -149,8 +155,13 @@ struct FieldOnPolygon {
     for (int i = 0; i < field.plane_count; ++i)
       if (depth_below(field.planes[i], ball.centre) - ball.radius <= limit) plane[plane_count++] = field.planes[i];
     int used = 0;
-    for (int t = 0; t < field.term_count; ++t)
-      used += add_term(polygon, ball, field.term_planes + field.terms[t].first, field.terms[t].count, limit, used);
+    for (int t = 0; t < field.term_count && !is_truncated; ++t) {
+      const int count = field.terms[t].count;
+      if (!is_within(field, t, ball.centre, ball.radius, limit)) continue;
+      is_truncated = plane_count + term_count + 1 > kMostPlanesOnPolygon || term_count == kMostTermsOnPolygon ||
+                     used + count > kMostTermPlanesOnPolygon;
+      if (!is_truncated) used += add_term(polygon, field.term_planes + field.terms[t].first, count, used);
+    }
   }
 
  private:
@@ -196,10 +207,7 @@ struct FieldOnPolygon {
   }
 
   /// Returns how many term planes were taken up.
-  TALUS_HD int add_term(const Polygon& polygon, const Ball& ball, const HalfSpace* planes, int count, Real limit,
-                        int first) {
-    for (int k = 0; k < count; ++k)
-      if (depth_below(planes[k], ball.centre) - ball.radius > limit) return 0;
+  TALUS_HD int add_term(const Polygon& polygon, const HalfSpace* planes, int count, int first) {
     int kept = 0;
     for (int k = 0; k < count; ++k)
       if (!is_outdone(polygon, planes, count, k)) term_plane[first + kept++] = planes[k];
@@ -225,7 +233,8 @@ TALUS_HD Sum integrate_depth(const Polygon& polygon, const DepthField& field, co
     return sum;
   }
   FieldOnPolygon here(polygon, field);
-  ScratchArray<std::uint8_t, NearDepth::kMostTerms> choice;
+  sum.is_truncated = here.is_truncated;
+  ScratchArray<std::uint8_t, kMostTermsOnPolygon> choice;
   for (int t = 0; t < here.term_count; ++t) choice[t] = 0;
   Polygon buffer[2];
   while (true) {

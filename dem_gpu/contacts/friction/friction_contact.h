@@ -22,6 +22,11 @@ struct PairProperties {
   DampingRatios damping;
   Real friction_coefficient = 0;
   Real effective_modulus = 0;  // Hertz E* [Pa]
+  // Of sphere contacts.
+  Real sphere_damping = 0;              // damping ratio of the sphere law [-]
+  Real tangential_stiffness_ratio = 0;  // tangential over normal stiffness [-]
+  Real rolling_friction = 0;            // mu_r [-]
+  Real adhesion = 0;                    // work of adhesion [J/m2]
 };
 
 /// Motion of a relative to b at the contact point, world frame.
@@ -42,8 +47,8 @@ struct FrictionContact {
   RelativeMotion predicted{};  // for the end of the step: damping
   Vec3 mean_spin{};            // mean angular velocity of a and b over the step [rad/s]
 
-  /// Normal force on a, damping included [N].
-  TALUS_HD Real normal_load() const { return norm(elastic.force) + damping; }
+  /// Normal force on a, damping included, without adhesion: what presses the surfaces together [N].
+  TALUS_HD Real normal_load() const { return damping + elastic.adhesion - dot(elastic.force, elastic.normal); }
 };
 
 /// Friction on a; b gets the opposite.

@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 
+#include "catalog/input_error.h"
 #include "tests/support/dem_runs.h"
 #include "tests/support/grooved_block.h"
 
@@ -73,6 +74,17 @@ Vec3 weight(double slope) {
 }
 
 double yaw(const Quaternion& q) { return 2 * std::atan2(q.z, q.w); }
+
+TEST(Push, AddsMomentumAndRefusesBodiesThatAreNotThere) {
+  Simulation simulation(cube_on(kSupports[0]));
+  const double inertia = kMass * kEdge * kEdge / 6;
+  simulation.push(0, {0, 0, 2 * kMass}, {0, 3 * inertia, 0});
+  EXPECT_NEAR(simulation.snapshot().velocity[0].z, 2, 1e-12);
+  EXPECT_NEAR(simulation.snapshot().angular_velocity[0].y, 3, 1e-12);
+  EXPECT_NEAR(simulation.ledger().initial, kMass * 2 + inertia * 4.5, 1e-12) << "J";
+  EXPECT_THROW(simulation.push(1, {}, {}), catalog::InputError);
+  EXPECT_THROW(simulation.push(-1, {}, {}), catalog::InputError);
+}
 
 TEST(Rocking, DoesNotRatchet) {
   // An aggregated point with a spring in proportion to the load crept by 0.036 and 0.38 mm, part pairs by up to 25 mm.
