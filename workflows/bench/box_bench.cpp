@@ -147,8 +147,10 @@ BenchPlan plan_box_bench(const BenchOptions&) {
   constexpr double kDilute = 0.06, kDense = 0.03;
   for (const Box& box :
        {Box{"spheres-short-80", false, false, 80, 500, kDilute}, Box{"spheres-160", false, false, 160, 100000, kDilute},
-        Box{"spheres-dense-40", false, false, 40, 100000, kDense}, Box{"hertz-160", false, true, 160, 100000, kDilute},
-        Box{"mix-short-40", true, false, 40, 1000, kDilute}, Box{"mix-160", true, false, 160, 100000, kDilute}})
+        Box{"spheres-dense-40", false, false, 40, 5000, kDense},
+        Box{"spheres-dense-640", false, false, 640, 100000, kDense},
+        Box{"hertz-160", false, true, 160, 100000, kDilute}, Box{"mix-short-40", true, false, 40, 1000, kDilute},
+        Box{"mix-160", true, false, 160, 100000, kDilute}})
     plan.cases.push_back({box.name, [box] { return measure_box(box); }});
   return plan;
 }
