@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "catalog/convex_part.h"
+#include "catalog/triangle_mesh.h"
 #include "dem_gpu/contacts/laws/depth_potential.h"
 #include "dem_gpu/contacts/laws/hertz.h"
 #include "dem_gpu/contacts/laws/linear_spring.h"
@@ -99,6 +100,14 @@ struct Cone {
 struct VolumeObject {
   catalog::ConvexPart part;  // world frame at time 0 [m]
 };
+/// Triangle mesh. The solid lies behind its triangles, whose corners run counter-clockwise as seen from outside the
+/// solid; a closed mesh is a solid body, a container a hole in a solid all about it.
+struct MeshObject {
+  catalog::TriangleMesh mesh;     // world frame at time 0 [m]
+  std::optional<Real> thickness;  // solid behind an open sheet [m]
+  bool is_container = false;      // closed mesh, bodies inside; either way round
+  Real depth = 0;  // of the layer in which contact is computed [m]; 0: the largest body's bounding radius
+};
 
 /// Prescribed motion; none by default. Rotation about a fixed axis and translation at constant speed.
 struct Motion {
@@ -111,7 +120,7 @@ struct Motion {
 
 struct Wall {
   std::string name;  // unique
-  std::variant<Plane, Disc, Cylinder, Cone, VolumeObject> geometry;
+  std::variant<Plane, Disc, Cylinder, Cone, VolumeObject, MeshObject> geometry;
   int material = 0;
   std::string contact_class;  // for the ledger: "shell", "lifter", "gate", ...; the wall's name if empty
   Motion motion;

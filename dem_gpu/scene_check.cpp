@@ -9,6 +9,7 @@
 
 #include "catalog/input_error.h"
 #include "catalog/triangle_mesh.h"
+#include "dem_gpu/meshes/contact_surface.h"
 #include "dem_gpu/scene.h"
 
 namespace dem_gpu {
@@ -144,6 +145,14 @@ struct CheckWall {
       polyhedral_shape("block", {object.part});
     } catch (const InputError& error) {
       throw InputError(place + ": not a convex solid (" + error.what() + ")");
+    }
+  }
+  void operator()(const MeshObject& object) const {
+    demand(object.depth >= 0 && std::isfinite(object.depth), place, "depth must not be negative");
+    try {
+      contact_surface(object);
+    } catch (const InputError& error) {
+      throw InputError(place + ": " + error.what());
     }
   }
 };

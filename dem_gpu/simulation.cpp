@@ -38,6 +38,13 @@ Real depth_cap(const Scene& scene) {
   return law ? law->depth_cap : 1;
 }
 
+MeshColumns mesh_columns(const Scene& scene, Real largest_radius) {
+  HostMeshColumns columns;
+  for (const Wall& wall : scene.walls)
+    if (const auto* mesh = std::get_if<MeshObject>(&wall.geometry)) append_mesh(columns, *mesh, largest_radius);
+  return make_mesh_columns(columns);
+}
+
 Real effective_modulus(const Material& a, const Material& b) {
   return 1 / ((1 - a.poisson_ratio * a.poisson_ratio) / a.youngs_modulus +
               (1 - b.poisson_ratio * b.poisson_ratio) / b.youngs_modulus);
@@ -117,6 +124,8 @@ Model make_model(const Scene& scene, BodyColumns& columns) {
   model.scene = scene;
   model.shapes = make_shape_columns(shapes_with_objects(scene), depth_cap(scene));
   set_bodies(scene, model.bodies, columns);
+  model.meshes = mesh_columns(scene, max_of(model.bodies.bounding_radius, Real(0)));
+  model.features.has_meshes = !model.meshes.meshes.empty();
   assign(model.pairs, pair_properties(scene));
   model.material_count = static_cast<int>(scene.materials.size());
   for (const Body& body : scene.bodies)

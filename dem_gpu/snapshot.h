@@ -36,7 +36,7 @@ struct ShapeGeometry {
   double volume = 0;                       // at scale 1 [m3]
 };
 
-enum class WallKind : int { plane = 0, disc = 1, cylinder = 2, cone = 3, volume_object = 4 };
+enum class WallKind : int { plane = 0, disc = 1, cylinder = 2, cone = 3, volume_object = 4, mesh = 5, sphere = 6 };
 
 struct WallGeometry {
   std::string name;

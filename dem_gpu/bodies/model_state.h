@@ -8,6 +8,7 @@
 #include "dem_gpu/bodies/body_columns.h"
 #include "dem_gpu/contacts/contact_columns.h"
 #include "dem_gpu/contacts/contact_response.h"
+#include "dem_gpu/meshes/mesh_columns.h"
 #include "dem_gpu/scene.h"
 #include "dem_gpu/shapes/shape_columns.h"
 #include "dem_gpu/simulation.h"
@@ -19,6 +20,7 @@ namespace dem_gpu {
 struct Model {
   Scene scene;
   ShapeColumns shapes;  // the scene's shapes, then one per volume object
+  MeshColumns meshes;   // one per mesh wall
   BodyConstants bodies;
   DeviceVector<PairProperties> pairs;  // n_materials x n_materials
   int material_count = 0;

@@ -18,8 +18,10 @@ enum class ContactKind : int {
   polyhedron_object,  // convex volume object
   sphere_wall,
   sphere_object,
+  polyhedron_mesh,  // triangle mesh
+  sphere_mesh,
 };
-inline constexpr int kContactKinds = 7;
+inline constexpr int kContactKinds = 9;
 
 /// Key of a candidate pair: kind, a, b. Sorted keys make every sum over contacts run in one fixed order.
 using ContactKey = std::uint64_t;
@@ -30,6 +32,7 @@ TALUS_HD inline int key_body_a(ContactKey key) { return static_cast<int>((key >>
 TALUS_HD inline int key_body_b(ContactKey key) { return static_cast<int>(key & 0x3fffffff); }
 TALUS_HD inline ContactKind key_kind(ContactKey key) { return static_cast<ContactKind>(key >> 60); }
 TALUS_HD inline bool is_wall_kind(ContactKind kind) { return kind >= ContactKind::polyhedron_wall; }
+TALUS_HD inline bool is_mesh_kind(ContactKind kind) { return kind >= ContactKind::polyhedron_mesh; }
 
 /// Candidate pairs and what they carry from step to step, one entry each (n_contacts). Optional columns have length 0
 /// where the scene has no use for them.
@@ -45,6 +48,10 @@ struct ContactColumns {
   DeviceVector<char> is_truncated;           // a clipped polygon did not fit
   DeviceVector<int> cache_begin;             // first entry in separating, polyhedron pairs
   DeviceVector<SeparatingPlane> separating;  // one per pair of parts, all candidate pairs end to end
+
+  // With meshes.
+  DeviceVector<int> facet_begin;  // first entry in facet, n_contacts + 1; empty lists for other kinds
+  DeviceVector<int> facet;        // facets that the body may touch, ascending, all lists end to end
 
   // With friction.
   DeviceVector<Vec3> tangential_displacement;  // of the spring, world frame [m]
@@ -78,6 +85,8 @@ struct ContactView {
   char* is_truncated;
   int* cache_begin;
   SeparatingPlane* separating;
+  const int* facet_begin;
+  const int* facet;
   Vec3* tangential_displacement;
   Real* elastic_work;
   Real* tangential_energy;
@@ -101,6 +110,7 @@ struct ContactFeatures {
   bool has_ledger = false;
   bool has_walls = false;
   bool has_polyhedra = false;
+  bool has_meshes = false;
 };
 
 /// All columns for `count` contacts, zero.

@@ -18,6 +18,7 @@ struct ContactScene {
   ContactView contacts;
   BodyView bodies;
   ShapeView shapes;
+  MeshView meshes;
   const WallRecord* walls;
   const PairProperties* pairs;
   int material_count;
@@ -33,9 +34,9 @@ struct ContactScene {
 
 inline ContactScene contact_scene(const Model& model, State& state) {
   return {view(state.contacts), view(model.bodies, state.bodies),
-          view(model.shapes),   state.walls.device(),
-          pointer(model.pairs), model.material_count,
-          model.time_step};
+          view(model.shapes),   view(model.meshes),
+          state.walls.device(), pointer(model.pairs),
+          model.material_count, model.time_step};
 }
 
 /// What stands on side b of a contact.

@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dem_gpu/contacts/contact_kernel.h"
 #include "dem_gpu/contacts/contact_passes.h"
+#include "dem_gpu/contacts/wall_stiffness.h"
 #include "dem_gpu/walls/wall_integrals.h"
 
 namespace dem_gpu {
 namespace {
-
-/// Stiffness per area of a wall's field so that a flat face meets a wall as stiffly as another flat face.
-TALUS_HD Real wall_stiffness(const DepthPotential& law) { return 2 * law.stiffness; }
-/// F = k V n on a flat wall: the integral of the depth over the surface inside is the overlap volume.
-TALUS_HD Real wall_stiffness(const OverlapVolume& law) { return law.stiffness; }
 
 /// Polyhedron against an analytic wall.
 template <class Law>

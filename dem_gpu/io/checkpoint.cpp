@@ -14,7 +14,7 @@ namespace dem_gpu {
 namespace {
 
 constexpr const char* kKind = "talus-checkpoint";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 /// A whole checkpoint that does not fit the simulation: no reason to look at an earlier one.
 class ForeignCheckpoint : public catalog::InputError {
@@ -47,6 +47,8 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("contacts/is_truncated", c.is_truncated);
   visit("contacts/cache_begin", c.cache_begin);
   visit("contacts/separating", c.separating);
+  visit("contacts/facet_begin", c.facet_begin);
+  visit("contacts/facet", c.facet);
   visit("contacts/tangential_displacement", c.tangential_displacement);
   visit("contacts/elastic_work", c.elastic_work);
   visit("contacts/tangential_energy", c.tangential_energy);
@@ -124,6 +126,8 @@ std::int64_t fingerprint(const Model& model) {
   mix_all(to_host(model.bodies.material));
   mix_all(to_host(model.shapes.vertices));
   mix_all(to_host(model.shapes.depth_planes));
+  mix_all(to_host(model.meshes.planes));
+  mix_all(to_host(model.meshes.vertices));
   const WallSet at_start(model.scene, static_cast<int>(model.scene.shapes.size()));
   for (std::size_t w = 0; w < model.scene.walls.size(); ++w) {
     const Wall& wall = model.scene.walls[w];
@@ -139,7 +143,8 @@ std::int64_t fingerprint(const Model& model) {
   }
   if (model.scene.outflow) mix(&*model.scene.outflow, sizeof(Outflow));
   const ContactFeatures& features = model.features;
-  for (const bool has : {features.has_friction, features.has_ledger, features.has_walls, features.has_polyhedra})
+  for (const bool has :
+       {features.has_friction, features.has_ledger, features.has_walls, features.has_polyhedra, features.has_meshes})
     mix(&has, sizeof(has));
   if (model.scene.friction) mix(&*model.scene.friction, sizeof(Friction));
   const std::size_t law = model.scene.polyhedral_law.index();

@@ -30,6 +30,7 @@ Quaternion rotation_at(const Motion& motion, Real time) {
 
 struct MakeRecord {
   int next_shape;
+  int next_mesh;
 
   WallRecord operator()(const Plane& plane) const {
     WallRecord record;
@@ -73,6 +74,12 @@ struct MakeRecord {
       record.bounding_radius = std::max(record.bounding_radius, norm(Vec3{vertex[0], vertex[1], vertex[2]}));
     return record;  // the shape stands in the world frame at time 0: pose is the identity
   }
+  WallRecord operator()(const MeshObject&) const {
+    WallRecord record;
+    record.kind = WallKind::mesh;
+    record.mesh = next_mesh;
+    return record;  // as a volume object
+  }
 };
 
 /// True if turning about the axis through `centre` leaves the surface where it is.
@@ -80,7 +87,8 @@ bool maps_onto_itself(const WallRecord& record, const Vec3& centre, const Vec3& 
   if (norm(cross(record.direction, axis)) > 1e-9) return false;
   if (record.kind == WallKind::plane) return true;
   const Vec3 offset = record.point - centre;
-  return norm(offset - dot(offset, axis) * axis) < 1e-9 && record.kind != WallKind::volume_object;
+  return norm(offset - dot(offset, axis) * axis) < 1e-9 && record.kind != WallKind::volume_object &&
+         record.kind != WallKind::mesh;
 }
 
 Real reach_from_axis(const Wall& wall, const WallRecord& record) {
@@ -91,12 +99,15 @@ Real reach_from_axis(const Wall& wall, const WallRecord& record) {
     const Vec3 offset = x - wall.motion.rotation_centre;
     return norm(offset - dot(offset, axis) * axis);
   };
-  if (const auto* object = std::get_if<VolumeObject>(&wall.geometry)) {
+  const auto farthest = [&](const std::vector<catalog::Point>& vertices) {
     Real reach = 0;
-    for (const catalog::Point& vertex : object->part.vertices)
-      reach = std::max(reach, distance({vertex[0], vertex[1], vertex[2]}));
+    for (const catalog::Point& vertex : vertices) reach = std::max(reach, distance({vertex[0], vertex[1], vertex[2]}));
     return reach;
-  }
+  };
+  if (const auto* object = std::get_if<VolumeObject>(&wall.geometry)) return farthest(object->part.vertices);
+  // A sheet's back stands out by less than a few thicknesses.
+  if (const auto* mesh = std::get_if<MeshObject>(&wall.geometry))
+    return farthest(mesh->mesh.vertices) + 4 * mesh->thickness.value_or(0);
   if (maps_onto_itself(record, wall.motion.rotation_centre, axis)) return 0;
   return distance(record.point) + record.length + std::max(record.base_radius, record.top_radius) + 1;
 }
@@ -104,9 +115,11 @@ Real reach_from_axis(const Wall& wall, const WallRecord& record) {
 }  // namespace
 
 WallSet::WallSet(const Scene& scene, int first_shape) : walls_(scene.walls) {
+  int next_mesh = 0;
   for (const Wall& wall : walls_) {
-    WallRecord record = std::visit(MakeRecord{first_shape}, wall.geometry);
+    WallRecord record = std::visit(MakeRecord{first_shape, next_mesh}, wall.geometry);
     if (record.kind == WallKind::volume_object) ++first_shape;
+    if (record.kind == WallKind::mesh) ++next_mesh;
     record.material = wall.material;
     record.rotation_centre = wall.motion.rotation_centre;
     at_start_.push_back(record);

@@ -15,14 +15,15 @@ struct WallRecord {
   WallKind kind = WallKind::plane;
   bool is_present = true;
   int shape = -1;  // volume objects: row of ShapeColumns
+  int mesh = -1;   // meshes: row of MeshColumns::meshes
   int material = 0;
-  Vec3 point;                // plane point, disc centre, base of cylinder and cone; position of a volume object [m]
-  Vec3 direction;            // normal or axis, unit
-  Real length = 0;           // [m]
-  Real base_radius = 0;      // [m]
-  Real top_radius = 0;       // [m]
+  Vec3 point;            // plane point, disc centre, base of cylinder and cone; position of a volume object or mesh [m]
+  Vec3 direction;        // normal or axis, unit
+  Real length = 0;       // [m]
+  Real base_radius = 0;  // [m]
+  Real top_radius = 0;   // [m]
   Real bounding_radius = 0;  // volume objects, about point [m]
-  Quaternion orientation;    // volume objects
+  Quaternion orientation;    // volume objects and meshes
   Vec3 rotation_centre;      // where the wall's torque is taken [m]
   Vec3 velocity;             // at the end of the step, of the material point at rotation_centre [m/s]
   Vec3 angular_velocity;     // [rad/s]

@@ -3,7 +3,7 @@
 
 #include "dem_gpu/contacts/elastic_contact.h"
 #include "dem_gpu/core/scratch_array.h"
-#include "dem_gpu/narrow_phase/part_frame.h"
+#include "dem_gpu/narrow_phase/depth_integrals.h"
 #include "dem_gpu/scene.h"
 #include "dem_gpu/walls/wall_surface.h"
 
@@ -51,7 +51,25 @@ struct WallIntegrals {
       add_linear(buffer[current][0], buffer[current][i - 1], buffer[current][i], normal, is_outer);
   }
 
-  /// `share` of 2 k: 1 for the depth potential.
+  /// A polygon whose depth is integrated already, in the axes and about the point that the sums are in.
+  TALUS_HD void add_polygon(const PolygonDepth& sum, const Vec3& normal, bool is_outer) {
+    force -= sum.depth * normal;
+    moment -= cross(sum.depth_moment, normal);
+    area += sum.area * normal;
+    if (!is_outer) return;
+    weight += sum.depth;
+    weighted_point += sum.depth_moment;
+    largest_depth = std::max(largest_depth, sum.largest);
+  }
+
+  /// The same sums in axes turned by `rotation`.
+  TALUS_HD void turn(const Mat3& rotation) {
+    force = rotation * force;
+    moment = rotation * moment;
+    weighted_point = rotation * weighted_point;
+    area = rotation * area;
+  }
+
   TALUS_HD bool to_contact(Real stiffness, const Vec3& centre, ElasticContact& contact) const {
     if (!(weight > 0)) return false;
     contact.force = stiffness * force;
