@@ -109,13 +109,21 @@ struct MeshObject {
   Real depth = 0;  // of the layer in which contact is computed [m]; 0: the largest body's bounding radius
 };
 
-/// Prescribed motion; none by default. Rotation about a fixed axis and translation at constant speed.
+/// Prescribed motion; none by default. Rotation about an axis, translation at constant speed, and an oscillation, which
+/// all add up; the axes move along with the rotation centre.
 struct Motion {
   Vec3 rotation_centre;   // a point on the axis [m]
   Vec3 angular_velocity;  // world frame [rad/s]
   Vec3 velocity;          // [m/s]
   Real start_time = 0;    // at rest before [s]
-  Real ramp_time = 0;     // speed grows linearly over this time after start_time [s]
+  Real ramp_time = 0;     // speed and amplitude grow linearly over this time after start_time [s]
+  // Oscillation: amplitude * (sin(2 pi frequency t + phase) - sin(phase)), t from start_time.
+  Vec3 amplitude{};          // of the displacement, world frame [m]
+  Vec3 angular_amplitude{};  // of the turn about the axis through rotation_centre, world frame [rad]
+  Real frequency = 0;        // [Hz]
+  Real phase = 0;            // [rad]
+
+  friend bool operator==(const Motion&, const Motion&) = default;
 };
 
 struct Wall {
@@ -124,6 +132,7 @@ struct Wall {
   int material = 0;
   std::string contact_class;  // for the ledger: "shell", "lifter", "gate", ...; the wall's name if empty
   Motion motion;
+  std::string group;               // walls of one group move alike, and their loads are summed; "" for none
   std::optional<Real> removed_at;  // a gate that opens: absent from this time on [s]
 };
 

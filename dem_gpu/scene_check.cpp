@@ -211,8 +211,13 @@ void check_walls(const Scene& scene) {
     std::visit(CheckWall{place}, wall.geometry);
     const Motion& motion = wall.motion;
     demand(is_finite(motion.rotation_centre) && is_finite(motion.angular_velocity) && is_finite(motion.velocity) &&
+               is_finite(motion.amplitude) && is_finite(motion.angular_amplitude) && std::isfinite(motion.phase) &&
                std::isfinite(motion.start_time) && motion.ramp_time >= 0 && std::isfinite(motion.ramp_time),
            place, "motion must be finite and its ramp time not negative");
+    demand(motion.frequency >= 0 && std::isfinite(motion.frequency), place, "frequency must not be negative");
+    for (const Wall& other : scene.walls)
+      demand(wall.group.empty() || wall.group != other.group || wall.motion == other.motion, place,
+             "moves otherwise than wall '" + other.name + "' of its group '" + wall.group + "'");
     demand(!wall.removed_at || !std::isnan(*wall.removed_at), place, "the time of removal must be a number");
   }
 }

@@ -14,6 +14,7 @@
 #include "dem_gpu/energy/energy.h"
 #include "dem_gpu/io/checkpoint.h"
 #include "dem_gpu/step_builder.h"
+#include "dem_gpu/walls/wall_motion.h"
 
 namespace dem_gpu {
 namespace {
@@ -168,6 +169,7 @@ struct Simulation::Engine {
     accounts.loss_normal.assign(model.classes.size(), 0);
     accounts.loss_shear.assign(model.classes.size(), 0);
     accounts.wall_work.assign(scene.walls.size(), 0);
+    accounts.wall_work_taken.assign(scene.walls.size(), 0);
     accounts.wall_impulse.assign(scene.walls.size(), Vec3{});
     accounts.wall_angular_impulse.assign(scene.walls.size(), Vec3{});
     const BodyEnergy energy = body_energy(model, state);
@@ -223,9 +225,12 @@ std::vector<WallLoad> Simulation::take_wall_loads() {
       loads[w].force = accounts.wall_impulse[w] / span;
       loads[w].torque = accounts.wall_angular_impulse[w] / span;
       const WallRecord& wall = engine_->state.walls.records()[w];
-      loads[w].power = -dot(loads[w].force, wall.velocity) - dot(loads[w].torque, wall.angular_velocity);
+      // A mean force and a velocity that changes make no power: what swings takes its work over the span.
+      loads[w].power = engine_->model.features.has_ledger && is_oscillating(engine_->model.scene.walls[w].motion)
+                           ? (accounts.wall_work[w] - accounts.wall_work_taken[w]) / span
+                           : -dot(loads[w].force, wall.velocity) - dot(loads[w].torque, wall.angular_velocity);
     }
-    loads[w].work = accounts.wall_work[w];
+    loads[w].work = accounts.wall_work_taken[w] = accounts.wall_work[w];
     accounts.wall_impulse[w] = accounts.wall_angular_impulse[w] = Vec3{};
   }
   accounts.wall_load_time = 0;

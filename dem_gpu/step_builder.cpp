@@ -6,6 +6,7 @@
 #include "dem_gpu/broad_phase/neighbour_list.h"
 #include "dem_gpu/contacts/contact_passes.h"
 #include "dem_gpu/motion/motion_passes.h"
+#include "dem_gpu/walls/wall_motion.h"
 
 namespace dem_gpu {
 namespace {
@@ -21,7 +22,7 @@ bool is_mesh(const Wall& wall) { return std::holds_alternative<MeshObject>(wall.
 bool is_analytic(const Wall& wall) { return !is_object(wall) && !is_mesh(wall); }
 
 bool moves(const Wall& wall) {
-  return wall.removed_at || norm(wall.motion.velocity) > 0 || norm(wall.motion.angular_velocity) > 0;
+  return wall.removed_at || is_moving(wall.motion);
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ struct ContactRange {
 struct Accounts {
   std::vector<double> loss_normal, loss_shear;           // per class [J]
   std::vector<double> wall_work;                         // per wall, since time 0 [J]
+  std::vector<double> wall_work_taken;                   // per wall, of wall_work when loads were last taken [J]
   std::vector<Vec3> wall_impulse, wall_angular_impulse;  // per wall, since last taken [N s], [N m s]
   double wall_load_time = 0;                             // since last taken [s]
   double initial_kinetic = 0;                            // [J]

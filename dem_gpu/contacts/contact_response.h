@@ -47,7 +47,14 @@ TALUS_HD inline ContactSide body_side(const BodyView& bodies, int body) {
 }
 
 TALUS_HD inline ContactSide wall_side(const WallRecord& wall) {
-  return {wall.rotation_centre, wall.velocity, wall.angular_velocity, wall.velocity, wall.angular_velocity, 0, {}, {}};
+  return {wall.rotation_centre,
+          wall.velocity,
+          wall.angular_velocity,
+          wall.mean_velocity,
+          wall.mean_angular_velocity,
+          0,
+          {},
+          {}};
 }
 
 /// Damping and friction of a pair of materials.

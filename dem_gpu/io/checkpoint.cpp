@@ -68,6 +68,7 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("accounts/loss_normal", a.loss_normal);
   visit("accounts/loss_shear", a.loss_shear);
   visit("accounts/wall_work", a.wall_work);
+  visit("accounts/wall_work_taken", a.wall_work_taken);
   visit("accounts/wall_impulse", a.wall_impulse);
   visit("accounts/wall_angular_impulse", a.wall_angular_impulse);
 }

@@ -4,29 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem_gpu/walls/wall_motion.h"
+
 namespace dem_gpu {
 namespace {
-
-/// Integral of the speed ramp from start_time: the time at full speed that gives the same travel [s].
-Real effective_time(const Motion& motion, Real time) {
-  const Real elapsed = time - motion.start_time;
-  if (elapsed <= 0) return 0;
-  if (motion.ramp_time <= 0) return elapsed;
-  if (elapsed < motion.ramp_time) return elapsed * elapsed / (2 * motion.ramp_time);
-  return elapsed - motion.ramp_time / 2;
-}
-
-Real speed_share(const Motion& motion, Real time) {
-  const Real elapsed = time - motion.start_time;
-  if (elapsed <= 0) return 0;
-  return motion.ramp_time > 0 ? std::min(Real(1), elapsed / motion.ramp_time) : Real(1);
-}
-
-Quaternion rotation_at(const Motion& motion, Real time) {
-  const Real rate = norm(motion.angular_velocity);
-  if (rate == 0) return {};
-  return axis_angle(motion.angular_velocity / rate, rate * effective_time(motion, time));
-}
 
 struct MakeRecord {
   int next_shape;
@@ -91,13 +72,16 @@ bool maps_onto_itself(const WallRecord& record, const Vec3& centre, const Vec3& 
          record.kind != WallKind::mesh;
 }
 
-Real reach_from_axis(const Wall& wall, const WallRecord& record) {
-  const Real rate = norm(wall.motion.angular_velocity);
+/// Largest distance of a wall's surface from the axis of a rotation vector, which may itself be turned (`turns`); 0 if
+/// the surface maps onto itself [m].
+Real reach_from_axis(const Wall& wall, const WallRecord& record, const Vec3& rotation, bool turns) {
+  const Real rate = norm(rotation);
   if (rate == 0) return 0;
-  const Vec3 axis = wall.motion.angular_velocity / rate;
+  const Vec3 axis = rotation / rate;
+  if (maps_onto_itself(record, wall.motion.rotation_centre, axis)) return 0;
   const auto distance = [&](const Vec3& x) {
     const Vec3 offset = x - wall.motion.rotation_centre;
-    return norm(offset - dot(offset, axis) * axis);
+    return turns ? norm(offset) : norm(offset - dot(offset, axis) * axis);
   };
   const auto farthest = [&](const std::vector<catalog::Point>& vertices) {
     Real reach = 0;
@@ -108,7 +92,6 @@ Real reach_from_axis(const Wall& wall, const WallRecord& record) {
   // A sheet's back stands out by less than a few thicknesses.
   if (const auto* mesh = std::get_if<MeshObject>(&wall.geometry))
     return farthest(mesh->mesh.vertices) + 4 * mesh->thickness.value_or(0);
-  if (maps_onto_itself(record, wall.motion.rotation_centre, axis)) return 0;
   return distance(record.point) + record.length + std::max(record.base_radius, record.top_radius) + 1;
 }
 
@@ -123,7 +106,10 @@ WallSet::WallSet(const Scene& scene, int first_shape) : walls_(scene.walls) {
     record.material = wall.material;
     record.rotation_centre = wall.motion.rotation_centre;
     at_start_.push_back(record);
-    reach_.push_back(reach_from_axis(wall, record));
+    const Motion& motion = wall.motion;
+    const bool turns = norm(motion.angular_velocity) > 0 && is_oscillating(motion);
+    turn_reach_.push_back(reach_from_axis(wall, record, motion.angular_velocity, turns));
+    swing_reach_.push_back(reach_from_axis(wall, record, motion.angular_amplitude, turns));
   }
   now_ = at_start_;
   move_to(0);
@@ -131,13 +117,13 @@ WallSet::WallSet(const Scene& scene, int first_shape) : walls_(scene.walls) {
 
 Vec3 WallSet::translation(int wall) const {
   const Motion& motion = walls_[wall].motion;
-  return motion.rotation_centre - rotate(rotation(wall), motion.rotation_centre) +
-         effective_time(motion, time_) * motion.velocity;
+  return motion.rotation_centre - rotate(rotation(wall), motion.rotation_centre) + place_at(motion, time_).shift;
 }
 
-Quaternion WallSet::rotation(int wall) const { return rotation_at(walls_[wall].motion, time_); }
+Quaternion WallSet::rotation(int wall) const { return place_at(walls_[wall].motion, time_).rotation; }
 
 bool WallSet::move_to(Real time) {
+  const Real before = time_;
   time_ = time;
   bool has_changed = false;
   for (int w = 0; w < count(); ++w) {
@@ -145,14 +131,17 @@ bool WallSet::move_to(Real time) {
     const Quaternion turn = rotation(w);
     const Vec3 shift = translation(w);
     const bool is_present = !walls_[w].removed_at || time < *walls_[w].removed_at;
+    const WallRate rate = rate_at(motion, time), mean = mean_rate(motion, before, time);
     has_changed |= is_present != now_[w].is_present;
     now_[w].is_present = is_present;
     now_[w].point = rotate(turn, at_start_[w].point) + shift;
     now_[w].direction = rotate(turn, at_start_[w].direction);
     now_[w].orientation = turn;
-    now_[w].rotation_centre = motion.rotation_centre + effective_time(motion, time) * motion.velocity;
-    now_[w].velocity = speed_share(motion, time) * motion.velocity;
-    now_[w].angular_velocity = speed_share(motion, time) * motion.angular_velocity;
+    now_[w].rotation_centre = motion.rotation_centre + place_at(motion, time).shift;
+    now_[w].velocity = rate.velocity;
+    now_[w].angular_velocity = rate.angular_velocity;
+    now_[w].mean_velocity = mean.velocity;
+    now_[w].mean_angular_velocity = mean.angular_velocity;
   }
   assign(device_, now_);
   return has_changed;
@@ -161,17 +150,15 @@ bool WallSet::move_to(Real time) {
 Real WallSet::largest_displacement(Real from, Real to) const {
   Real largest = 0;
   for (int w = 0; w < count(); ++w) {
-    const Motion& motion = walls_[w].motion;
-    const Real span = effective_time(motion, to) - effective_time(motion, from);
-    largest = std::max(largest, std::abs(span) * (norm(motion.velocity) + reach_[w] * norm(motion.angular_velocity)));
+    const WallTravel gone = travel(walls_[w].motion, from, to);
+    largest = std::max(largest, gone.shift + turn_reach_[w] * gone.turn + swing_reach_[w] * gone.swing);
   }
   return largest;
 }
 
 bool WallSet::has_moving_walls() const {
-  return std::any_of(walls_.begin(), walls_.end(), [](const Wall& wall) {
-    return norm(wall.motion.velocity) > 0 || norm(wall.motion.angular_velocity) > 0 || wall.removed_at;
-  });
+  return std::any_of(walls_.begin(), walls_.end(),
+                     [](const Wall& wall) { return is_moving(wall.motion) || wall.removed_at; });
 }
 
 }  // namespace dem_gpu

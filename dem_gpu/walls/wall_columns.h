@@ -22,11 +22,13 @@ struct WallRecord {
   Real length = 0;       // [m]
   Real base_radius = 0;  // [m]
   Real top_radius = 0;   // [m]
-  Real bounding_radius = 0;  // volume objects, about point [m]
-  Quaternion orientation;    // volume objects and meshes
-  Vec3 rotation_centre;      // where the wall's torque is taken [m]
-  Vec3 velocity;             // at the end of the step, of the material point at rotation_centre [m/s]
-  Vec3 angular_velocity;     // [rad/s]
+  Real bounding_radius = 0;    // volume objects, about point [m]
+  Quaternion orientation;      // volume objects and meshes
+  Vec3 rotation_centre;        // where the wall's torque is taken [m]
+  Vec3 velocity;               // at the end of the step, of the material point at rotation_centre [m/s]
+  Vec3 angular_velocity;       // [rad/s]
+  Vec3 mean_velocity;          // over the step, of the same point [m/s]
+  Vec3 mean_angular_velocity;  // [rad/s]
 };
 
 /// Walls as functions of time: no state of their own, so a resumed run finds them where they were.
@@ -51,8 +53,8 @@ class WallSet {
   std::vector<Wall> walls_;
   std::vector<WallRecord> at_start_;
   std::vector<WallRecord> now_;
-  std::vector<Real>
-      reach_;  // largest distance of the wall's surface from its axis of rotation [m]; 0: maps onto itself
+  std::vector<Real> turn_reach_;   // of the surface from the axis of rotation [m]; 0: it maps onto itself
+  std::vector<Real> swing_reach_;  // from the axis of oscillation [m]
   DeviceVector<WallRecord> device_;
   Real time_ = 0;
 };
