@@ -69,32 +69,42 @@ struct Body {
   Vec3 angular_velocity;  // world frame [rad/s]
 };
 
-// World objects. The solid is behind the surface: particles live on the side the normal points to (plane, disc) or
-// inside (cylinder, cone).
+// World objects. The solid is behind the surface: particles live on the side the normal points to (plane, disc), inside
+// or outside (cylinder, cone, ball).
 struct Plane {
   Vec3 point;   // [m]
   Vec3 normal;  // unit
 };
-/// Round plate of finite radius; solid behind it: a gate or an end plate.
+/// Round plate of finite radius: a gate or an end plate. Without a thickness all that is behind it is solid.
 struct Disc {
-  Vec3 centre;      // [m]
-  Vec3 normal;      // unit
-  Real radius = 0;  // [m]
+  Vec3 centre;                                   // [m]
+  Vec3 normal;                                   // unit
+  Real radius = 0;                               // [m]
+  std::optional<Real> thickness = std::nullopt;  // [m]
 };
-/// Inside of a cylinder from `base` along the unit `axis` over `length`; solid outside it.
+/// Where the solid of a curved wall is: about a container that holds the bodies, or within a shaft or ball.
+enum class SolidSide { around, within };
+/// Cylinder from `base` along the unit `axis` over `length`, its ends open.
 struct Cylinder {
   Vec3 base;        // centre of the lower end [m]
   Vec3 axis;        // unit
   Real length = 0;  // [m]
   Real radius = 0;  // [m]
+  SolidSide solid = SolidSide::around;
 };
-/// Inside of a cone frustum; radius changes linearly from `base_radius` to `top_radius` over `length`.
+/// Cone frustum, its ends open; radius changes linearly from `base_radius` to `top_radius` over `length`.
 struct Cone {
   Vec3 base;             // [m]
   Vec3 axis;             // unit
   Real length = 0;       // [m]
   Real base_radius = 0;  // [m]
   Real top_radius = 0;   // [m]
+  SolidSide solid = SolidSide::around;
+};
+struct Ball {
+  Vec3 centre;      // [m]
+  Real radius = 0;  // [m]
+  SolidSide solid = SolidSide::around;
 };
 /// Convex volume object: a lifter, a block.
 struct VolumeObject {
@@ -128,7 +138,7 @@ struct Motion {
 
 struct Wall {
   std::string name;  // unique
-  std::variant<Plane, Disc, Cylinder, Cone, VolumeObject, MeshObject> geometry;
+  std::variant<Plane, Disc, Cylinder, Cone, Ball, VolumeObject, MeshObject> geometry;
   int material = 0;
   std::string contact_class;  // for the ledger: "shell", "lifter", "gate", ...; the wall's name if empty
   Motion motion;

@@ -127,6 +127,7 @@ struct CheckWall {
     demand(is_finite(disc.centre), place, "centre must be finite");
     demand(is_unit(disc.normal), place, "normal must be a unit vector");
     demand(is_positive(disc.radius), place, "radius must be positive");
+    demand(!disc.thickness || is_positive(*disc.thickness), place, "thickness must be positive");
   }
   void operator()(const Cylinder& cylinder) const {
     demand(is_finite(cylinder.base), place, "base must be finite");
@@ -139,6 +140,10 @@ struct CheckWall {
     demand(cone.base_radius >= 0 && cone.top_radius >= 0 && is_positive(cone.length), place,
            "radii must not be negative and length must be positive");
     demand(cone.base_radius > 0 || cone.top_radius > 0, place, "one of the radii must be positive");
+  }
+  void operator()(const Ball& ball) const {
+    demand(is_finite(ball.centre), place, "centre must be finite");
+    demand(is_positive(ball.radius), place, "radius must be positive");
   }
   void operator()(const VolumeObject& object) const {
     try {

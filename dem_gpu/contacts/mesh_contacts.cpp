@@ -27,7 +27,7 @@ struct PolyhedronMeshGeometry {
     WallIntegrals integrals;
     for (int p = 0; p < shape.part_count; ++p) {
       const PartView part = part_view(scene.shapes, shape.first_part + p);
-      const PartInMesh body(part, to_mesh);
+      const PlacedPart body(part, to_mesh);
       for (int k = first; k < last; ++k)
         if (!integrate_part_in_cell(body, scene.meshes, scene.meshes.facets[scene.contacts.facet[k]], origin,
                                     integrals))

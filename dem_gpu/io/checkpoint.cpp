@@ -137,7 +137,8 @@ std::int64_t fingerprint(const Model& model) {
     mix(&wall.motion, sizeof(Motion));
     const WallRecord& record = at_start.records()[w];
     for (const Real value : {static_cast<Real>(record.kind), static_cast<Real>(wall.material), record.length,
-                             record.base_radius, record.top_radius, wall.removed_at.value_or(Real(-1))})
+                             record.base_radius, record.top_radius, record.thickness,
+                             static_cast<Real>(record.solid_within), wall.removed_at.value_or(Real(-1))})
       mix(&value, sizeof(value));
     mix(&record.point, sizeof(Vec3));
     mix(&record.direction, sizeof(Vec3));

@@ -26,6 +26,8 @@ struct MakeRecord {
     record.point = disc.centre;
     record.direction = disc.normal;
     record.base_radius = disc.radius;
+    record.side = any_perpendicular(disc.normal);
+    record.thickness = disc.thickness.value_or(0);
     return record;
   }
   WallRecord operator()(const Cylinder& cylinder) const {
@@ -35,6 +37,7 @@ struct MakeRecord {
     record.direction = cylinder.axis;
     record.length = cylinder.length;
     record.base_radius = record.top_radius = cylinder.radius;
+    record.solid_within = cylinder.solid == SolidSide::within;
     return record;
   }
   WallRecord operator()(const Cone& cone) const {
@@ -45,6 +48,16 @@ struct MakeRecord {
     record.length = cone.length;
     record.base_radius = cone.base_radius;
     record.top_radius = cone.top_radius;
+    record.solid_within = cone.solid == SolidSide::within;
+    return record;
+  }
+  WallRecord operator()(const Ball& ball) const {
+    WallRecord record;
+    record.kind = WallKind::sphere;
+    record.point = ball.centre;
+    record.direction = {0, 0, 1};
+    record.base_radius = record.top_radius = ball.radius;
+    record.solid_within = ball.solid == SolidSide::within;
     return record;
   }
   WallRecord operator()(const VolumeObject& object) const {
@@ -65,6 +78,7 @@ struct MakeRecord {
 
 /// True if turning about the axis through `centre` leaves the surface where it is.
 bool maps_onto_itself(const WallRecord& record, const Vec3& centre, const Vec3& axis) {
+  if (record.kind == WallKind::sphere) return norm(cross(record.point - centre, axis)) < 1e-9;
   if (norm(cross(record.direction, axis)) > 1e-9) return false;
   if (record.kind == WallKind::plane) return true;
   const Vec3 offset = record.point - centre;
@@ -95,6 +109,18 @@ Real reach_from_axis(const Wall& wall, const WallRecord& record, const Vec3& rot
   return distance(record.point) + record.length + std::max(record.base_radius, record.top_radius) + 1;
 }
 
+/// Are two rims one circle, to within a millionth of it?
+bool is_one_rim(const WallRecord& a, bool at_top, const WallRecord& b, bool b_at_top) {
+  const auto centre = [](const WallRecord& wall, bool top) {
+    return wall.point + (top ? wall.length : Real(0)) * wall.direction;
+  };
+  const Real radius = at_top ? a.top_radius : a.base_radius, other = b_at_top ? b.top_radius : b.base_radius;
+  const Real tolerance = Real(1e-6) * radius;
+  return radius > 0 && std::abs(radius - other) < tolerance &&
+         norm(centre(a, at_top) - centre(b, b_at_top)) < tolerance &&
+         norm(cross(a.direction, b.direction)) < Real(1e-6) && a.solid_within == b.solid_within;
+}
+
 }  // namespace
 
 WallSet::WallSet(const Scene& scene, int first_shape) : walls_(scene.walls) {
@@ -111,8 +137,26 @@ WallSet::WallSet(const Scene& scene, int first_shape) : walls_(scene.walls) {
     turn_reach_.push_back(reach_from_axis(wall, record, motion.angular_velocity, turns));
     swing_reach_.push_back(reach_from_axis(wall, record, motion.angular_amplitude, turns));
   }
+  join_rims();
   now_ = at_start_;
   move_to(0);
+}
+
+void WallSet::join_rims() {
+  const auto is_round = [&](int w) {
+    return at_start_[w].kind == WallKind::cylinder || at_start_[w].kind == WallKind::cone;
+  };
+  for (int a = 0; a < static_cast<int>(at_start_.size()); ++a)
+    for (int b = 0; b < static_cast<int>(at_start_.size()); ++b) {
+      if (a == b || !is_round(a) || !is_round(b)) continue;
+      const Motion &motion = walls_[a].motion, &other = walls_[b].motion;
+      const bool both_spin = norm(motion.velocity) == 0 && norm(other.velocity) == 0 && !is_oscillating(motion) &&
+                             !is_oscillating(other) && turn_reach_[a] == 0 && turn_reach_[b] == 0;
+      if (!(motion == other) && !both_spin) continue;
+      for (const bool at_top : {false, true})
+        for (const bool other_at_top : {false, true})
+          if (is_one_rim(at_start_[a], at_top, at_start_[b], other_at_top)) at_start_[a].rim_neighbour[at_top] = b;
+    }
 }
 
 Vec3 WallSet::translation(int wall) const {

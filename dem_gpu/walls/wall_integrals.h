@@ -5,6 +5,7 @@
 #include "dem_gpu/core/scratch_array.h"
 #include "dem_gpu/narrow_phase/depth_integrals.h"
 #include "dem_gpu/scene.h"
+#include "dem_gpu/walls/curved_window.h"
 #include "dem_gpu/walls/wall_surface.h"
 
 namespace dem_gpu {
@@ -109,15 +110,18 @@ struct WallIntegrals {
 /// Chord error that a piece of a face may have against a curved wall, as a share of the part's radius.
 constexpr Real kChordError = Real(0.002);
 constexpr int kMostPieces = 8;  // of a triangle's edge
+/// Where bodies are outside a ball or shaft, which may be small beside a face: the force of a face on a ball is then
+/// short by at most 1 %.
+constexpr int kMostPiecesOutside = 16;
 
 /// Adds the triangle a, b, c of a flat face (relative to the body's centre) in pieces small enough for the wall's depth
 /// to be linear on each: a chord of length h leaves a circle of radius R by h^2 / (8 R).
 template <class Sampler>
 TALUS_HD void add_in_pieces(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal, bool is_outer,
-                            Real longest_piece, const Sampler& sample, WallIntegrals& integrals) {
+                            Real longest_piece, int most_pieces, const Sampler& sample, WallIntegrals& integrals) {
   const Real longest = std::sqrt(std::max(norm_squared(b - a), std::max(norm_squared(c - a), norm_squared(c - b))));
   const int pieces =
-      longest < kMostPieces * longest_piece ? 1 + static_cast<int>(longest / longest_piece) : kMostPieces;
+      longest < most_pieces * longest_piece ? 1 + static_cast<int>(longest / longest_piece) : most_pieces;
   const Vec3 along_b = (Real(1) / pieces) * (b - a), along_c = (Real(1) / pieces) * (c - a);
   const auto corner = [&](int row, int column) {
     return sample(a + static_cast<Real>(row) * along_b + static_cast<Real>(column) * along_c);
@@ -137,7 +141,14 @@ TALUS_HD void add_in_pieces(const Vec3& a, const Vec3& b, const Vec3& c, const V
   }
 }
 
-/// Adds one convex part of a body at `pose` to the wall's integrals.
+/// Length of the pieces in which the depth of a curved wall may be taken as linear [m].
+TALUS_HD inline Real longest_piece_on(const WallRecord& wall, const Vec3& centre, Real radius) {
+  const Real curvature_radius =
+      wall.kind == WallKind::sphere ? wall.base_radius : axial_position(wall, centre).radius + radius;
+  return std::sqrt(8 * kChordError * radius * curvature_radius);
+}
+
+/// Adds one convex part of a body at `pose` to the integrals of a plane, or of a curved wall with the bodies inside.
 TALUS_HD inline void integrate_part_in_wall(const PartView& part, const Pose& pose, const WallRecord& wall,
                                             WallIntegrals& integrals) {
   const Vec3 centre = pose.scale * (pose.rotation * part.range.centre) + pose.position;
@@ -153,9 +164,8 @@ TALUS_HD inline void integrate_part_in_wall(const PartView& part, const Pose& po
     touches |= vertices[v].field.depth > 0;
   }
   if (!touches) return;
-  const bool is_curved = wall.kind == WallKind::cylinder || wall.kind == WallKind::cone;
-  const Real longest_piece =
-      is_curved ? std::sqrt(8 * kChordError * radius * (axial_position(wall, centre).radius + radius)) : Real(0);
+  const bool is_curved = wall.kind != WallKind::plane;
+  const Real longest_piece = is_curved ? longest_piece_on(wall, centre, radius) : Real(0);
   for (int f = 0; f < part.range.face_count; ++f) {
     const bool is_outer = f < part.range.outer_face_count;
     const FaceCorners face = part.faces[f];
@@ -168,12 +178,47 @@ TALUS_HD inline void integrate_part_in_wall(const PartView& part, const Pose& po
       const WallIntegrals::Sample &first = vertices[corner[0]], &second = vertices[corner[c - 1]],
                                   &third = vertices[corner[c]];
       if (is_curved)
-        add_in_pieces(first.position, second.position, third.position, normal, is_outer, longest_piece, sample,
-                      integrals);
+        add_in_pieces(first.position, second.position, third.position, normal, is_outer, longest_piece, kMostPieces,
+                      sample, integrals);
       else
         integrals.add_triangle(first, second, third, normal, is_outer);
     }
   }
+}
+
+/// Adds one convex part of a body at `pose` to the integrals of a ball, shaft or cone with the bodies outside: each
+/// face is first cut down to where the wall can reach it. False if a polygon was truncated.
+TALUS_HD inline bool integrate_part_outside(const PartView& part, const Pose& pose, const WallRecord& wall,
+                                            WallIntegrals& integrals) {
+  const Vec3 centre = pose.scale * (pose.rotation * part.range.centre) + pose.position;
+  const Real radius = pose.scale * part.range.radius;
+  if (wall_field(wall, centre).depth + radius <= 0) return true;
+  const auto sample = [&](const Vec3& relative) {
+    return WallIntegrals::Sample{relative, wall_field(wall, pose.position + relative)};
+  };
+  const Vec3 point = wall.point - pose.position;
+  Polygon buffer[2];
+  for (int f = 0; f < part.range.face_count; ++f) {
+    const HalfSpace plane{pose.rotation * part.planes[f].normal, pose.scale * part.planes[f].offset};
+    const CurvedWindow window =
+        wall.kind == WallKind::sphere ? ball_window(wall, point, plane) : shaft_window(wall, point, plane);
+    if (window.is_empty) continue;
+    const FaceCorners face = part.faces[f];
+    int current = 0;
+    buffer[0].count = face.count;
+    buffer[0].is_truncated = false;
+    for (int c = 0; c < face.count; ++c)
+      buffer[0].corner[c] = pose.scale * (pose.rotation * part.vertices[part.corners[face.first + c]]);
+    for (int side = 0; side < window.count; ++side, current = 1 - current)
+      clip(buffer[current], window.side[side], buffer[1 - current]);
+    const Polygon& polygon = buffer[current];
+    if (polygon.is_truncated) return false;
+    for (int c = 2; c < polygon.count; ++c)
+      add_in_pieces(polygon.corner[0], polygon.corner[c - 1], polygon.corner[c], plane.normal,
+                    f < part.range.outer_face_count, longest_piece_on(wall, centre, radius), kMostPiecesOutside, sample,
+                    integrals);
+  }
+  return true;
 }
 
 }  // namespace dem_gpu
