@@ -13,6 +13,7 @@
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/energy/energy.h"
 #include "dem_gpu/io/checkpoint.h"
+#include "dem_gpu/meshes/contact_surface.h"
 #include "dem_gpu/step_builder.h"
 #include "dem_gpu/walls/wall_motion.h"
 
@@ -309,10 +310,10 @@ RunGeometry Simulation::geometry() const {
   for (std::size_t w = 0; w < model.scene.walls.size(); ++w) {
     const Wall& wall = model.scene.walls[w];
     const WallRecord& record = at_start.records()[w];
-    WallGeometry entry{wall.name,          wall.contact_class, record.kind,
-                       record.point,       record.direction,   record.length,
-                       record.base_radius, record.top_radius,  {}};
+    WallGeometry entry{wall.name,     wall.contact_class, record.kind,       record.point, record.direction,
+                       record.length, record.base_radius, record.top_radius, {},           {}};
     if (const auto* object = std::get_if<VolumeObject>(&wall.geometry)) entry.part = object->part;
+    if (const auto* mesh = std::get_if<MeshObject>(&wall.geometry)) entry.mesh = contact_surface(*mesh);
     geometry.walls.push_back(std::move(entry));
   }
   return geometry;

@@ -123,7 +123,8 @@ TriangleMesh contact_surface(const MeshObject& object) {
     if (enclosed_volume(surface) > 0) turn_round(surface);
   } else if (!(enclosed_volume(surface) > 0)) {
     throw InputError(
-        "the mesh is inverted: its normals point into the solid; turn its triangles round, or declare it a container");
+        "the mesh is inverted: its normals point into the solid; turn its triangles round, or state bodies = "
+        "\"inside\" if it is a container");
   }
   refuse_self_intersection(surface);
   return surface;
