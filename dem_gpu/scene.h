@@ -113,9 +113,9 @@ struct VolumeObject {
 /// Triangle mesh. The solid lies behind its triangles, whose corners run counter-clockwise as seen from outside the
 /// solid; a closed mesh is a solid body, a container a hole in a solid all about it.
 struct MeshObject {
-  catalog::TriangleMesh mesh;     // world frame at time 0 [m]
-  std::optional<Real> thickness;  // solid behind an open sheet [m]
-  bool is_container = false;      // closed mesh, bodies inside; either way round
+  catalog::TriangleMesh mesh;                    // world frame at time 0 [m]
+  std::optional<Real> thickness = std::nullopt;  // solid behind an open sheet [m]
+  bool is_container = false;                     // closed mesh, bodies inside; either way round
   Real depth = 0;  // of the layer in which contact is computed [m]; 0: the largest body's bounding radius
 };
 

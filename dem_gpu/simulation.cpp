@@ -15,6 +15,7 @@
 #include "dem_gpu/io/checkpoint.h"
 #include "dem_gpu/meshes/contact_surface.h"
 #include "dem_gpu/step_builder.h"
+#include "dem_gpu/walls/hidden_faces.h"
 #include "dem_gpu/walls/wall_motion.h"
 
 namespace dem_gpu {
@@ -25,11 +26,11 @@ constexpr Real kSkinShare = 0.1;
 
 std::vector<Shape> shapes_with_objects(const Scene& scene) {
   std::vector<Shape> shapes = scene.shapes;
-  for (const Wall& wall : scene.walls)
-    if (const auto* object = std::get_if<VolumeObject>(&wall.geometry)) {
+  for (std::size_t w = 0; w < scene.walls.size(); ++w)
+    if (const auto* object = std::get_if<VolumeObject>(&scene.walls[w].geometry)) {
       // Volume objects stay in the world frame of time 0: their pose is their motion.
-      Shape shape = polyhedral_shape(wall.name, {object->part});
-      shape.geometry = PolyhedralShape{{object->part}};
+      Shape shape = polyhedral_shape(scene.walls[w].name, {object->part});
+      shape.geometry = PolyhedralShape{{welded_part(scene, w)}};
       shapes.push_back(std::move(shape));
     }
   return shapes;

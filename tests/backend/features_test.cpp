@@ -5,6 +5,7 @@
 #include "dem_gpu/contacts/contact_columns.h"
 #include "dem_gpu/simulation.h"
 #include "tests/support/mixed_scene.h"
+#include "tests/support/wall_meshes.h"
 
 namespace {
 
@@ -35,7 +36,11 @@ TEST(Absent, PassesOfWhatIsNotThere) {
   scene.outflow = dem_gpu::Outflow{};
   EXPECT_EQ(passes(scene), (Names{"advance_bodies", "advance_walls", "neighbour_list", "polyhedron_object_contacts",
                                   "gather_forces", "outflow"}));
-  EXPECT_EQ(passes(mixed_scene()).size(), 12u) << "everything";
+  scene.walls[0].geometry = dem_gpu::MeshObject{flat_sheet(1, 2), 0.1};
+  scene.outflow.reset();
+  EXPECT_EQ(passes(scene),
+            (Names{"advance_bodies", "advance_walls", "neighbour_list", "polyhedron_mesh_contacts", "gather_forces"}));
+  EXPECT_EQ(passes(mixed_scene()).size(), 12u) << "everything but meshes";
 }
 
 TEST(Absent, ColumnsOfWhatIsNotThere) {
@@ -44,14 +49,16 @@ TEST(Absent, ColumnsOfWhatIsNotThere) {
     resize_columns(columns, 10, features);
     return std::vector<std::size_t>{
         columns.force.size(),        columns.cache_begin.size(),         columns.tangential_displacement.size(),
-        columns.elastic_work.size(), columns.last_friction_force.size(), columns.wall_impulse.size()};
+        columns.elastic_work.size(), columns.last_friction_force.size(), columns.wall_impulse.size(),
+        columns.facet_begin.size()};
   };
   using Lengths = std::vector<std::size_t>;
-  EXPECT_EQ(lengths({}), (Lengths{10, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(lengths({true, false, false, false}), (Lengths{10, 0, 10, 0, 0, 0}));
-  EXPECT_EQ(lengths({false, true, false, false}), (Lengths{10, 0, 0, 10, 10, 0}));
-  EXPECT_EQ(lengths({false, false, true, false}), (Lengths{10, 0, 0, 0, 0, 10}));
-  EXPECT_EQ(lengths({false, false, false, true}), (Lengths{10, 11, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({}), (Lengths{10, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({true, false, false, false}), (Lengths{10, 0, 10, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({false, true, false, false}), (Lengths{10, 0, 0, 10, 10, 0, 0}));
+  EXPECT_EQ(lengths({false, false, true, false}), (Lengths{10, 0, 0, 0, 0, 10, 0}));
+  EXPECT_EQ(lengths({false, false, false, true}), (Lengths{10, 11, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({false, false, false, false, true}), (Lengths{10, 0, 0, 0, 0, 0, 11}));
 }
 
 TEST(Absent, MotionIsTheSameWithoutTheLedger) {
