@@ -18,7 +18,8 @@ struct MeshCell {
 /// The layer behind a closed surface cut into one cell a face, at most `depth` deep: neighbours meet in the bisector of
 /// their planes, faces on opposite sides of a thin solid or round a sharp edge in the bisector as well, so that depth
 /// is that below the nearest plane. Behind coplanar faces of any cut the cells are the layer behind the plane. About
-/// saddle vertices cells may overlap or leave a gap: the field is then double or zero there, still one fixed field.
+/// saddle vertices, and behind a re-entrant edge of many triangles, cells may overlap or leave a gap: the field is then
+/// double or zero there, still one fixed field, so its force stays a gradient.
 std::vector<MeshCell> mesh_cells(const catalog::TriangleMesh& surface, Real depth);
 
 }  // namespace dem_gpu

@@ -12,10 +12,12 @@ struct CurvedWindow {
   HalfSpace side[6];
   int count = 0;
   bool is_empty = false;
+  Real half_width = 0;  // across the wall [m]
 
-  TALUS_HD void limit(const Vec3& direction, const Vec3& middle, Real half_width) {
-    side[count++] = {direction, dot(direction, middle) + half_width};
-    side[count++] = {-direction, half_width - dot(direction, middle)};
+  TALUS_HD void limit(const Vec3& direction, const Vec3& middle, Real width) {
+    side[count++] = {direction, dot(direction, middle) + width};
+    side[count++] = {-direction, width - dot(direction, middle)};
+    half_width = width;
   }
 };
 

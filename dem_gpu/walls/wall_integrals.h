@@ -112,7 +112,7 @@ constexpr Real kChordError = Real(0.002);
 constexpr int kMostPieces = 8;  // of a triangle's edge
 /// Where bodies are outside a ball or shaft, which may be small beside a face: the force of a face on a ball is then
 /// short by at most 1 %.
-constexpr int kMostPiecesOutside = 16;
+constexpr int kMostPiecesOutside = 24;
 
 /// Adds the triangle a, b, c of a flat face (relative to the body's centre) in pieces small enough for the wall's depth
 /// to be linear on each: a chord of length h leaves a circle of radius R by h^2 / (8 R).
@@ -215,8 +215,8 @@ TALUS_HD inline bool integrate_part_outside(const PartView& part, const Pose& po
     if (polygon.is_truncated) return false;
     for (int c = 2; c < polygon.count; ++c)
       add_in_pieces(polygon.corner[0], polygon.corner[c - 1], polygon.corner[c], plane.normal,
-                    f < part.range.outer_face_count, longest_piece_on(wall, centre, radius), kMostPiecesOutside, sample,
-                    integrals);
+                    f < part.range.outer_face_count, 2 * window.half_width / kMostPiecesOutside, kMostPiecesOutside,
+                    sample, integrals);
   }
   return true;
 }
