@@ -25,5 +25,6 @@ BenchPlan plan_contact_bench(const BenchOptions& options);
 BenchPlan plan_laws_bench(const BenchOptions& options);
 BenchPlan plan_overlap_bench(const BenchOptions& options);
 BenchPlan plan_pile_bench(const BenchOptions& options);
+BenchPlan plan_walls_bench(const BenchOptions& options);
 
 }  // namespace workflows
