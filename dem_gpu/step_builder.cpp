@@ -21,9 +21,7 @@ bool is_mesh(const Wall& wall) { return std::holds_alternative<MeshObject>(wall.
 
 bool is_analytic(const Wall& wall) { return !is_object(wall) && !is_mesh(wall); }
 
-bool moves(const Wall& wall) {
-  return wall.removed_at || is_moving(wall.motion);
-}
+bool moves(const Wall& wall) { return wall.removed_at || is_moving(wall.motion); }
 
 }  // namespace
 
