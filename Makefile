@@ -7,7 +7,7 @@ CUDA_ARCHITECTURES ?= 90
 NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
 STAGES := talus talus-digitize talus-decompose talus-catalog talus-simulate talus-post
 
-.PHONY: help demo test build install engine test-engines cuda gpu-check format check-format clean
+.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy gpu-check format check-format clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -38,6 +38,15 @@ test-engines: engine  ## Engine tests with OpenMP, and serial under the address 
 	cmake --build --preset asan --parallel $(JOBS)
 	ctest --test-dir build-asan --output-on-failure -L 'unit|property|backend'
 
+HARD_CASES_TABLE := docs/results/hard_cases.md
+hard-cases: install $(BUILD)/CMakeCache.txt  ## Every hard case, about an hour; writes docs/results/hard_cases.md
+	cmake --build $(BUILD) --parallel $(JOBS) --target hard_cases
+	@mkdir -p $(dir $(HARD_CASES_TABLE))
+	@{ printf '# Hard cases\n\nWritten by `make hard-cases` on %s, one thread of %s. A case that does not hold is shown as failed; the quick ones are also tests (`ctest -R HardCases`).\n\n' \
+	  "$$(date -u +%Y-%m-%d)" "$$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1)"; \
+	  $(BUILD)/bin/hard_cases; } > $(HARD_CASES_TABLE).next; status=$$?; mv $(HARD_CASES_TABLE).next $(HARD_CASES_TABLE); \
+	  cat $(HARD_CASES_TABLE); exit $$status
+
 ifeq ($(NVCC),)
 cuda:
 	@echo 'cuda: no nvcc here, the CUDA engine is not compiled'
@@ -46,6 +55,9 @@ cuda: install  ## Compile the CUDA engine and its talus-simulate (where nvcc is)
 	PATH="$(dir $(NVCC)):$$PATH" cmake --preset dem-cuda -DCMAKE_CUDA_ARCHITECTURES="$(CUDA_ARCHITECTURES)"
 	PATH="$(dir $(NVCC)):$$PATH" cmake --build --preset dem-cuda --parallel $(JOBS) --target talus-simulate
 endif
+
+accuracy: build  ## Write docs/accuracy.md: every validation table and bench, with its command (about an hour)
+	workflows/accuracy_report.sh $(BUILD) $(MIXED)
 
 gpu-check: install  ## On a GPU machine: build the CUDA engine with its tests and run them
 	cmake --preset dem-cuda -DCMAKE_CUDA_ARCHITECTURES=native

@@ -22,9 +22,9 @@ constexpr int kShapeA = 0, kShapeB = 1;
 Pose to_pose(const BodyPose& pose) { return {rotation_matrix(pose.orientation), pose.position, pose.scale}; }
 
 /// The depth field needs its cap; the volume law has no field.
-Real depth_cap_of(const PolyhedralLaw& law) {
-  const auto* depth = std::get_if<DepthPotential>(&law);
-  return depth ? depth->depth_cap : DepthPotential{}.depth_cap;
+std::optional<Real> depth_cap_of(const PolyhedralLaw& law) {
+  const DepthPotential* depth = depth_potential(law);
+  return depth ? std::optional(depth->depth_cap) : std::nullopt;
 }
 
 template <class Integrals>
@@ -39,7 +39,7 @@ template <class Law>
 bool find_contact(const ShapeView& shapes, const Law& law, const PosePair& poses, SeparatingPlane* separating,
                   ElasticContact& contact) {
   const Pose a = to_pose(poses.a), b = to_pose(poses.b);
-  typename IntegralsOf<Law>::Type integrals;
+  auto integrals = empty_integrals(law, smaller_diameter(shapes, kShapeA, kShapeB, a, b), a.scale, b.scale);
   integrate(shapes, a, b, separating, integrals);
   return integrals.to_contact(law, a, contact);
 }

@@ -10,11 +10,13 @@
 #include "catalog/convex_part.h"
 #include "catalog/triangle_mesh.h"
 #include "dem_gpu/contacts/laws/depth_potential.h"
+#include "dem_gpu/contacts/laws/hardening_depth_potential.h"
 #include "dem_gpu/contacts/laws/hertz.h"
 #include "dem_gpu/contacts/laws/linear_spring.h"
 #include "dem_gpu/contacts/laws/overlap_volume.h"
 #include "dem_gpu/core/quaternion.h"
 #include "dem_gpu/core/vec3.h"
+#include "dem_gpu/run_promise.h"
 
 namespace dem_gpu {
 
@@ -50,13 +52,16 @@ struct Material {
   std::string name;
   Real density = 0;           // [kg/m3]; not used by walls
   Real youngs_modulus = 5e6;  // [Pa], used by the Hertz law only
-  Real poisson_ratio = 0.3;   // [-], used by the Hertz law only
+  Real poisson_ratio = 0.3;   // [-], used by the Hertz law only, with Mindlin's tangential stiffness
 };
 
 /// Contact of material a with material b.
 struct ContactProperties {
-  Real restitution = 0.5;           // normal, (0, 1]
+  Real restitution = 0.5;           // normal, [0, 1]; at least 0.01 where there are polyhedra
   Real friction_coefficient = 0.5;  // Coulomb, >= 0
+  // Of sphere contacts alone.
+  Real rolling_friction = 0;  // largest rolling couple / (R* F_n), >= 0 [-]
+  Real adhesion = 0;          // work of adhesion, >= 0 [J/m2]
 };
 
 struct Body {
@@ -67,6 +72,7 @@ struct Body {
   Quaternion orientation;
   Vec3 velocity;          // [m/s]
   Vec3 angular_velocity;  // world frame [rad/s]
+  bool is_fixed = false;  // held where it is: meets others as a body of infinite mass; must be at rest
 };
 
 // World objects. The solid is behind the surface: particles live on the side the normal points to (plane, disc), inside
@@ -152,21 +158,26 @@ struct Outflow {
   Real height = 0;          // [m]
 };
 
-using PolyhedralLaw = std::variant<DepthPotential, OverlapVolume>;
+using PolyhedralLaw = std::variant<DepthPotential, OverlapVolume, HardeningDepthPotential>;
+/// The depth potential that a law is, hardening or not; null for the volume law.
+const DepthPotential* depth_potential(const PolyhedralLaw& law);
+
 using SphereLaw = std::variant<LinearSpring, Hertz>;
 
 struct Friction {
-  Real tangential_stiffness_ratio = Real(2) / 7;  // tangential over normal stiffness [-]
+  Real tangential_stiffness_ratio = Real(2) / 7;  // tangential over normal stiffness, Hertz contacts apart [-]
 };
 
 /// Steps, times and outputs of a run.
 struct RunControl {
-  Real end_time = 0;             // [s]
-  Real time_step = 0;            // [s]; 0: chosen from the stiffest contact
-  Real steps_per_contact = 20;   // in the stiffest contact, where time_step is 0 [-]
-  Real snapshot_interval = 0;    // [s]; 0: none
-  Real checkpoint_interval = 0;  // [s]; 0: only at the end
-  Real series_interval = 0;      // rows of the time series [s]; 0: every snapshot_interval
+  Real end_time = 0;                       // [s]
+  Real time_step = 0;                      // [s]; 0: chosen from the stiffest contact
+  Real steps_per_contact = 20;             // in the stiffest contact, where time_step is 0 [-]
+  Preset preset = Preset::standard;        // what the run promises; a step of one's own may break it
+  Real largest_start_overlap = Real(0.1);  // accepted at time 0, share of the thinner body's least width [-]
+  Real snapshot_interval = 0;              // [s]; 0: none
+  Real checkpoint_interval = 0;            // [s]; 0: only at the end
+  Real series_interval = 0;                // rows of the time series [s]; 0: every snapshot_interval
 };
 
 struct Scene {
@@ -190,9 +201,13 @@ inline constexpr int kMaxPartVertices = 64;
 inline constexpr int kMaxPartFaces = 124;
 inline constexpr int kMaxFaceCorners = 32;
 
-/// Refuses what cannot be simulated: indices out of range, negative sizes, zero stiffness, restitution outside (0, 1],
-/// two walls of one name, no bodies, a time step longer than a fifth of the shortest contact. Throws
-/// catalog::InputError with the place and the remedy.
+/// Whether any pair of materials has rolling resistance, or adhesion.
+bool has_rolling_friction(const Scene& scene);
+bool has_adhesion(const Scene& scene);
+
+/// Refuses what cannot be simulated: indices out of range, negative sizes, zero stiffness, restitution outside [0, 1],
+/// two walls of one name, no bodies, fixed bodies that move, a time step longer than a fifth of the shortest contact.
+/// Throws catalog::InputError with the place and the remedy.
 void check(const Scene& scene);
 
 /// Shortest contact time that the scene can make: pi sqrt(m_eff / stiffness) over face contacts of polyhedra and
@@ -202,8 +217,16 @@ Real shortest_contact_time(const Scene& scene);
 /// The time step used: run.time_step, or shortest_contact_time / steps_per_contact [s].
 Real time_step(const Scene& scene);
 
-/// Stiffness of the scene's polyhedral law [N/m3] for which the heaviest body's largest flat face, striking a wall at
-/// `speed`, sinks in by `largest_overlap` (share of the body's equivalent diameter).
-Real stiffness_for_overlap(const Scene& scene, Real speed, Real largest_overlap);
+/// Where the heaviest body strikes in stiffness_for_overlap: with its largest flat face, or with a corner like a
+/// cube's.
+enum class OverlapAt { face, corner };
+
+/// Stiffness of the scene's polyhedral law [N/m3] for which the heaviest body, striking a flat wall at `speed` without
+/// turning, sinks in by `largest_overlap` (share of the body's equivalent diameter).
+Real stiffness_for_overlap(const Scene& scene, Real speed, Real largest_overlap, OverlapAt at = OverlapAt::face);
+
+/// The reverse for a flat face: overlap of the heaviest body at its law's stiffness, as a share of its equivalent
+/// diameter.
+Real flat_overlap(const Scene& scene, Real speed);
 
 }  // namespace dem_gpu

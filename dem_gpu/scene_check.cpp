@@ -20,11 +20,10 @@ using catalog::InputError;
 /// Least contact area assumed for a body, over its equivalent diameter squared: a rounded body pressed in by 5 % of its
 /// diameter meets a plane over pi * 0.05 of it.
 constexpr Real kLeastContactArea = 0.16;
-/// Share of a grain's mass that a sphere meets at a corner, where the grain gives way by turning: 1 / (1 + r^2 / k^2)
-/// with r half the diameter and k the radius of gyration of a ball, rounded down.
-constexpr Real kEccentricShare = 0.28;
 /// Longest time step accepted, as a share of the shortest contact: beyond it restitution is off by 1 % and more.
 constexpr Real kFewestSteps = 5;
+/// Below it the dashpot of polyhedra, evaluated once a step, is too stiff for the step.
+constexpr Real kLeastPolyhedralRestitution = 0.01;
 
 bool is_positive(Real value) { return value > 0 && std::isfinite(value); }
 bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
@@ -82,14 +81,47 @@ Real largest_contact_area(const Shape& shape) {
   return polyhedron ? std::max(least, largest_flat_area(*polyhedron)) : least;
 }
 
+/// Least share of a body's mass that a push at one of its corners meets, the body giving way by turning:
+/// 1 / (1 + m (r x n) I^-1 (r x n)), over the corners r and the directions n between the faces that meet there.
+Real least_corner_share(const Shape& shape) {
+  const auto* polyhedron = std::get_if<PolyhedralShape>(&shape.geometry);
+  if (!polyhedron) return 1;
+  const Vec3& inertia = shape.principal_inertia;
+  Real largest = 0;
+  const auto try_push = [&](const Vec3& corner, const Vec3& direction) {
+    const Vec3 arm = cross(corner, direction);
+    const Vec3 turned{arm.x / inertia.x, arm.y / inertia.y, arm.z / inertia.z};
+    largest = std::max(largest, shape.volume * dot(arm, turned));
+  };
+  const auto to_vec3 = [](const catalog::Point& p) { return Vec3{p[0], p[1], p[2]}; };
+  for (const catalog::ConvexPart& part : polyhedron->parts) {
+    std::vector<std::vector<Vec3>> normals(part.vertices.size());  // of the outer faces at each corner
+    for (const catalog::ConvexFace& face : part.faces)
+      if (face.kind == catalog::FaceKind::outer)
+        for (const int vertex : face.vertices) normals[vertex].push_back(to_vec3(face.plane.normal));
+    for (std::size_t v = 0; v < normals.size(); ++v)
+      for (const Vec3& one : normals[v])
+        for (const Vec3& other : normals[v]) try_push(to_vec3(part.vertices[v]), unit_or(one + other, one));
+  }
+  return 1 / (1 + largest);
+}
+
 Real mass_of(const Scene& scene, const Body& body) {
   const Real scale = body.scale;
   return scene.materials[body.material].density * scene.shapes[body.shape].volume * scale * scale * scale;
 }
 
+/// Stiffness of two flat faces per area, over the law's stiffness: the depth potential has the fields of both.
+Real stiffness_per_area_ratio(const PolyhedralLaw& law) { return depth_potential(law) ? 2 : 1; }
+
 Real stiffness_per_area(const PolyhedralLaw& law) {
-  if (const auto* depth = std::get_if<DepthPotential>(&law)) return 2 * depth->stiffness;
-  return std::get<OverlapVolume>(law).stiffness;
+  return std::visit([](const auto& chosen) { return chosen.stiffness_per_area(); }, law);
+}
+
+/// Tangent stiffness of a flat contact as deep as the law reckons with, over that at touch.
+Real stiffening(const PolyhedralLaw& law) {
+  const auto* hardening = std::get_if<HardeningDepthPotential>(&law);
+  return hardening ? 1 + 2 * hardening->flat_overlap / hardening->hardening : Real(1);
 }
 
 /// Tangent stiffness of a sphere contact pressed in by 2 % of the radius [N/m].
@@ -105,7 +137,7 @@ Real sphere_stiffness(const Scene& scene, const Body& body) {
 Real contact_stiffness(const Scene& scene, const Body& body, Real area) {
   const Shape& shape = scene.shapes[body.shape];
   if (std::holds_alternative<SphereShape>(shape.geometry)) return sphere_stiffness(scene, body);
-  return stiffness_per_area(scene.polyhedral_law) * area * body.scale * body.scale;
+  return stiffening(scene.polyhedral_law) * stiffness_per_area(scene.polyhedral_law) * area * body.scale * body.scale;
 }
 
 /// Stiffest sphere of the scene [N/m]; 0 without spheres.
@@ -115,6 +147,38 @@ Real largest_sphere_stiffness(const Scene& scene) {
     if (std::holds_alternative<SphereShape>(scene.shapes[body.shape].geometry))
       stiffness = std::max(stiffness, sphere_stiffness(scene, body));
   return stiffness;
+}
+
+const Body* heaviest_polyhedron(const Scene& scene) {
+  const Body* heaviest = nullptr;
+  for (const Body& body : scene.bodies)
+    if (std::holds_alternative<PolyhedralShape>(scene.shapes[body.shape].geometry) &&
+        (!heaviest || mass_of(scene, body) > mass_of(scene, *heaviest)))
+      heaviest = &body;
+  return heaviest;
+}
+
+/// overlap / hardening depth, 0 for a law without hardening.
+Real hardened_share(const PolyhedralLaw& law, Real overlap) {
+  const auto* hardening = std::get_if<HardeningDepthPotential>(&law);
+  return hardening ? overlap / hardening->hardening : 0;
+}
+
+/// Energy over stiffness of a body pressed into a flat wall: share * integral of psi(depth) over the overlap,
+/// psi = depth (1 + depth / l). `overlap`: share of the diameter. With its largest flat face, a prism [m5]:
+Real face_energy(const Scene& scene, const Body& body, Real overlap) {
+  const Shape& shape = scene.shapes[body.shape];
+  const Real depth = overlap * equivalent_diameter(shape, body.scale);
+  return stiffness_per_area_ratio(scene.polyhedral_law) * largest_contact_area(shape) * body.scale * body.scale *
+         depth * depth * (Real(0.5) + hardened_share(scene.polyhedral_law, overlap) / 3);
+}
+
+/// With a corner of a cube: a pyramid of section 3 sqrt(3) / 2 t^2 at distance t from its tip, where the depth is d -
+/// t.
+Real corner_energy(const Scene& scene, const Body& body, Real overlap) {
+  const Real depth = overlap * equivalent_diameter(scene.shapes[body.shape], body.scale);
+  return stiffness_per_area_ratio(scene.polyhedral_law) * Real(1.5) * std::sqrt(Real(3)) * depth * depth * depth *
+         depth * (Real(1) / 12 + hardened_share(scene.polyhedral_law, overlap) / 30);
 }
 
 struct CheckWall {
@@ -162,6 +226,16 @@ struct CheckWall {
   }
 };
 
+bool has_shape(const Scene& scene, bool sphere) {
+  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
+    return std::holds_alternative<SphereShape>(scene.shapes[body.shape].geometry) == sphere;
+  });
+}
+
+void check_not_negative(Real value, const std::string& place, const std::string& name) {
+  demand(value >= 0 && std::isfinite(value), place, name + " must not be negative");
+}
+
 void check_materials(const Scene& scene) {
   demand(!scene.materials.empty(), "materials", "at least one is needed");
   for (const Material& material : scene.materials) {
@@ -171,24 +245,34 @@ void check_materials(const Scene& scene) {
     demand(material.poisson_ratio > -1 && material.poisson_ratio <= Real(0.5), place,
            "Poisson's ratio must lie in -1 .. 0.5");
   }
+}
+
+void check_contacts(const Scene& scene) {
+  const bool has_polyhedra = has_shape(scene, false);
   demand(scene.contact.size() == scene.materials.size(), "contact", "one row a material is needed");
   for (std::size_t i = 0; i < scene.contact.size(); ++i) {
     demand(scene.contact[i].size() == scene.materials.size(), "contact", "one column a material is needed");
     for (std::size_t j = 0; j < scene.contact.size(); ++j) {
       const std::string place = "contact of '" + scene.materials[i].name + "' with '" + scene.materials[j].name + "'";
       const ContactProperties& properties = scene.contact[i][j];
-      demand(properties.restitution >= Real(0.01) && properties.restitution <= 1, place,
-             "restitution must lie in 0.01 .. 1");
-      demand(properties.friction_coefficient >= 0 && std::isfinite(properties.friction_coefficient), place,
-             "friction must not be negative");
+      demand(properties.restitution >= 0 && properties.restitution <= 1, place, "restitution must lie in 0 .. 1");
+      demand(properties.restitution >= kLeastPolyhedralRestitution || !has_polyhedra, place,
+             "restitution of polyhedra must be at least 0.01");
+      check_not_negative(properties.friction_coefficient, place, "friction");
+      check_not_negative(properties.rolling_friction, place, "rolling friction");
+      check_not_negative(properties.adhesion, place, "adhesion");
+      demand(properties.rolling_friction == 0 || scene.friction, place,
+             "rolling friction needs friction, which this scene has turned off");
     }
   }
   for (std::size_t i = 0; i < scene.contact.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       demand(scene.contact[i][j].restitution == scene.contact[j][i].restitution &&
-                 scene.contact[i][j].friction_coefficient == scene.contact[j][i].friction_coefficient,
+                 scene.contact[i][j].friction_coefficient == scene.contact[j][i].friction_coefficient &&
+                 scene.contact[i][j].rolling_friction == scene.contact[j][i].rolling_friction &&
+                 scene.contact[i][j].adhesion == scene.contact[j][i].adhesion,
              "contact of '" + scene.materials[j].name + "' with '" + scene.materials[i].name + "'",
-             "restitution and friction must be the same both ways");
+             "restitution, friction and adhesion must be the same both ways");
 }
 
 void check_bodies(const Scene& scene) {
@@ -201,6 +285,8 @@ void check_bodies(const Scene& scene) {
     demand(is_positive(body.scale), place, "size must be positive");
     demand(is_finite(body.position) && is_finite(body.velocity) && is_finite(body.angular_velocity), place,
            "position and velocity must be finite");
+    demand(!body.is_fixed || (norm(body.velocity) == 0 && norm(body.angular_velocity) == 0), place,
+           "a fixed body must be at rest; set its velocities to zero, or make it a wall with a motion");
     const Quaternion& q = body.orientation;
     demand(is_positive(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z), place,
            "orientation must be a finite quaternion other than zero");
@@ -227,12 +313,6 @@ void check_walls(const Scene& scene) {
   }
 }
 
-bool has_shape(const Scene& scene, bool sphere) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
-    return std::holds_alternative<SphereShape>(scene.shapes[body.shape].geometry) == sphere;
-  });
-}
-
 void check_run(const Scene& scene) {
   demand(is_finite(scene.gravity), "gravity", "must be finite");
   if (scene.outflow)
@@ -244,10 +324,17 @@ void check_run(const Scene& scene) {
   if (has_shape(scene, false))
     demand(is_positive(stiffness_per_area(scene.polyhedral_law)), "contact law of polyhedra",
            "stiffness must be positive");
-  if (const auto* depth = std::get_if<DepthPotential>(&scene.polyhedral_law); depth && has_shape(scene, false))
+  if (const DepthPotential* depth = depth_potential(scene.polyhedral_law); depth && has_shape(scene, false))
     demand(is_positive(depth->depth_cap), "contact law of polyhedra", "depth cap must be positive");
+  if (const auto* law = std::get_if<HardeningDepthPotential>(&scene.polyhedral_law); law && has_shape(scene, false)) {
+    demand(is_positive(law->hardening), "contact law of polyhedra",
+           "hardening must be positive; leave it out for a law without hardening");
+    demand(law->flat_overlap >= 0 && std::isfinite(law->flat_overlap), "contact law of polyhedra",
+           "the flat overlap must not be negative");
+  }
   if (const auto* linear = std::get_if<LinearSpring>(&scene.sphere_law); linear && has_shape(scene, true))
     demand(is_positive(linear->stiffness), "contact law of spheres", "stiffness must be positive");
+  demand(scene.run.largest_start_overlap > 0, "run", "largest overlap at the start must be positive");
   demand(scene.run.end_time >= 0 && scene.run.time_step >= 0, "run", "times must not be negative");
   demand(scene.run.time_step > 0 || scene.run.steps_per_contact >= kFewestSteps, "run",
          "steps per contact must be at least 5 where no time step is given");
@@ -259,26 +346,46 @@ void check_run(const Scene& scene) {
         " steps; use at most " + std::to_string(shortest / 20 * 1e6) + " us (20 steps), or a softer contact law");
 }
 
+template <class Property>
+bool has_positive(const Scene& scene, const Property& property) {
+  for (const std::vector<ContactProperties>& row : scene.contact)
+    for (const ContactProperties& properties : row)
+      if (property(properties) > 0) return true;
+  return false;
+}
+
 }  // namespace
+
+bool has_rolling_friction(const Scene& scene) {
+  return has_positive(scene, [](const ContactProperties& properties) { return properties.rolling_friction; });
+}
+
+bool has_adhesion(const Scene& scene) {
+  return has_positive(scene, [](const ContactProperties& properties) { return properties.adhesion; });
+}
 
 void check(const Scene& scene) {
   check_materials(scene);
   check_bodies(scene);
+  check_contacts(scene);
   check_walls(scene);
   check_run(scene);
 }
 
 Real shortest_contact_time(const Scene& scene) {
   const Real against_sphere = largest_sphere_stiffness(scene);
-  std::vector<Real> area;
-  for (const Shape& shape : scene.shapes) area.push_back(largest_contact_area(shape));
+  std::vector<Real> area, corner_share;
+  for (const Shape& shape : scene.shapes) {
+    area.push_back(largest_contact_area(shape));
+    corner_share.push_back(against_sphere > 0 ? least_corner_share(shape) : 1);
+  }
   Real shortest = std::numeric_limits<Real>::max();
   for (const Body& body : scene.bodies) {
     const Real effective_mass = mass_of(scene, body) / 2;  // against its like
     const Real stiffness = contact_stiffness(scene, body, area[body.shape]);
     if (std::holds_alternative<PolyhedralShape>(scene.shapes[body.shape].geometry) && against_sphere > 0)
-      shortest =
-          std::min(shortest, std::numbers::pi * std::sqrt(kEccentricShare * mass_of(scene, body) / against_sphere));
+      shortest = std::min(
+          shortest, std::numbers::pi * std::sqrt(corner_share[body.shape] * mass_of(scene, body) / against_sphere));
     shortest = std::min(shortest, std::numbers::pi * std::sqrt(effective_mass / stiffness));
   }
   return shortest;
@@ -288,19 +395,31 @@ Real time_step(const Scene& scene) {
   return scene.run.time_step > 0 ? scene.run.time_step : shortest_contact_time(scene) / scene.run.steps_per_contact;
 }
 
-Real stiffness_for_overlap(const Scene& scene, Real speed, Real largest_overlap) {
-  const Body* heaviest = nullptr;
-  for (const Body& body : scene.bodies)
-    if (std::holds_alternative<PolyhedralShape>(scene.shapes[body.shape].geometry) &&
-        (!heaviest || mass_of(scene, body) > mass_of(scene, *heaviest)))
-      heaviest = &body;
+const DepthPotential* depth_potential(const PolyhedralLaw& law) {
+  if (const auto* hardening = std::get_if<HardeningDepthPotential>(&law)) return hardening;
+  return std::get_if<DepthPotential>(&law);
+}
+
+Real stiffness_for_overlap(const Scene& scene, Real speed, Real largest_overlap, OverlapAt at) {
+  const Body* heaviest = heaviest_polyhedron(scene);
   if (!heaviest) return 0;
-  const Shape& shape = scene.shapes[heaviest->shape];
-  const Real depth = largest_overlap * equivalent_diameter(shape, heaviest->scale);
-  // Flat impact on a wall: 1/2 m v^2 = 1/2 (share k A) d^2.
-  const Real share = std::holds_alternative<DepthPotential>(scene.polyhedral_law) ? 2 : 1;
-  return mass_of(scene, *heaviest) * speed * speed /
-         (share * largest_contact_area(shape) * heaviest->scale * heaviest->scale * depth * depth);
+  const Real energy = at == OverlapAt::face ? face_energy(scene, *heaviest, largest_overlap)
+                                            : corner_energy(scene, *heaviest, largest_overlap);
+  return Real(0.5) * mass_of(scene, *heaviest) * speed * speed / energy;
+}
+
+Real flat_overlap(const Scene& scene, Real speed) {
+  const Body* heaviest = heaviest_polyhedron(scene);
+  if (!heaviest) return 0;
+  const Real stiffness = std::visit([](const auto& law) { return law.stiffness; }, scene.polyhedral_law);
+  const Real energy = Real(0.5) * mass_of(scene, *heaviest) * speed * speed / stiffness;
+  Real low = 0, high = 1;
+  while (face_energy(scene, *heaviest, high) < energy) high *= 2;
+  for (int bisection = 0; bisection < 60; ++bisection) {
+    const Real middle = (low + high) / 2;
+    (face_energy(scene, *heaviest, middle) < energy ? low : high) = middle;
+  }
+  return high;
 }
 
 }  // namespace dem_gpu

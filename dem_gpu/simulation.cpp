@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "catalog/input_error.h"
 #include "dem_gpu/bodies/model_state.h"
 #include "dem_gpu/broad_phase/neighbour_list.h"
 #include "dem_gpu/contacts/contact_passes.h"
@@ -14,6 +15,8 @@
 #include "dem_gpu/energy/energy.h"
 #include "dem_gpu/io/checkpoint.h"
 #include "dem_gpu/meshes/contact_surface.h"
+#include "dem_gpu/shapes/least_width.h"
+#include "dem_gpu/start/start_overlap.h"
 #include "dem_gpu/step_builder.h"
 #include "dem_gpu/walls/hidden_faces.h"
 #include "dem_gpu/walls/wall_motion.h"
@@ -36,9 +39,10 @@ std::vector<Shape> shapes_with_objects(const Scene& scene) {
   return shapes;
 }
 
-Real depth_cap(const Scene& scene) {
-  const auto* law = std::get_if<DepthPotential>(&scene.polyhedral_law);
-  return law ? law->depth_cap : 1;
+/// The volume law has no depth field.
+std::optional<Real> depth_cap(const Scene& scene) {
+  const DepthPotential* law = depth_potential(scene.polyhedral_law);
+  return law ? std::optional(law->depth_cap) : std::nullopt;
 }
 
 MeshColumns mesh_columns(const Scene& scene, Real largest_radius) {
@@ -53,27 +57,57 @@ Real effective_modulus(const Material& a, const Material& b) {
               (1 - b.poisson_ratio * b.poisson_ratio) / b.youngs_modulus);
 }
 
+/// Effective shear modulus: 1 / G* = sum of (2 - nu) / G, G = E / (2 (1 + nu)).
+Real effective_shear_modulus(const Material& a, const Material& b) {
+  const auto compliance = [](const Material& m) {
+    return 2 * (2 - m.poisson_ratio) * (1 + m.poisson_ratio) / m.youngs_modulus;
+  };
+  return 1 / (compliance(a) + compliance(b));
+}
+
+/// Tangential over normal stiffness of sphere contacts; Hertz: 8 G* a over 2 E* a.
+Real tangential_stiffness_ratio(const Scene& scene, const Material& a, const Material& b) {
+  if (!std::holds_alternative<Hertz>(scene.sphere_law))
+    return scene.friction ? scene.friction->tangential_stiffness_ratio : 0;
+  return 4 * effective_shear_modulus(a, b) / effective_modulus(a, b);
+}
+
 std::vector<PairProperties> pair_properties(const Scene& scene) {
   const std::size_t n = scene.materials.size();
+  const Real sphere_exponent = std::visit([](const auto& law) { return law.kExponent; }, scene.sphere_law);
   std::map<Real, DampingRatios> solved;
+  std::map<Real, Real> solved_for_spheres;
   std::vector<PairProperties> pairs(n * n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
-      const Real restitution = scene.contact[i][j].restitution;
-      if (!solved.contains(restitution)) solved[restitution] = damping_ratios(restitution);
-      pairs[i * n + j] = {solved[restitution], scene.contact[i][j].friction_coefficient,
-                          effective_modulus(scene.materials[i], scene.materials[j])};
+      const ContactProperties& contact = scene.contact[i][j];
+      const Real restitution = contact.restitution;
+      if (!solved.contains(restitution)) {
+        solved[restitution] = damping_ratios(restitution);
+        solved_for_spheres[restitution] = damping_ratio(sphere_exponent, restitution);
+      }
+      const Material &a = scene.materials[i], &b = scene.materials[j];
+      pairs[i * n + j] = {solved[restitution],
+                          contact.friction_coefficient,
+                          effective_modulus(a, b),
+                          solved_for_spheres[restitution],
+                          tangential_stiffness_ratio(scene, a, b),
+                          contact.rolling_friction,
+                          contact.adhesion};
     }
   return pairs;
 }
 
 void set_bodies(const Scene& scene, BodyConstants& constants, BodyColumns& columns) {
   const std::size_t n = scene.bodies.size();
-  const HostShapeColumns shapes = make_host_shape_columns(scene.shapes, 1);
+  const HostShapeColumns shapes = make_host_shape_columns(scene.shapes, std::nullopt);
   std::vector<int> shape(n), material(n);
-  std::vector<Real> scale(n), mass(n), radius(n), diameter(n);
+  std::vector<Real> scale(n), mass(n), radius(n), diameter(n), width(n);
   std::vector<Vec3> inertia(n), position(n), velocity(n), angular_velocity(n);
   std::vector<Quaternion> orientation(n);
+  std::vector<Real> shape_width;
+  for (const Shape& one : scene.shapes) shape_width.push_back(least_width(one));
+  std::vector<char> active(n);
   for (std::size_t i = 0; i < n; ++i) {
     const Body& body = scene.bodies[i];
     const ShapeRange& range = shapes.shapes[body.shape];
@@ -85,6 +119,8 @@ void set_bodies(const Scene& scene, BodyConstants& constants, BodyColumns& colum
     inertia[i] = (density * s * s * s * s * s) * range.inertia;
     radius[i] = s * range.bounding_radius;
     diameter[i] = s * range.equivalent_diameter;
+    width[i] = s * shape_width[body.shape];
+    active[i] = static_cast<char>(body.is_fixed ? BodyState::fixed : BodyState::moving);
     position[i] = body.position;
     orientation[i] = normalized(body.orientation);
     velocity[i] = body.velocity;
@@ -97,7 +133,8 @@ void set_bodies(const Scene& scene, BodyConstants& constants, BodyColumns& colum
   assign(constants.inertia, inertia);
   assign(constants.bounding_radius, radius);
   assign(constants.diameter, diameter);
-  columns.active.assign(n, 1);
+  assign(constants.least_width, width);
+  assign(columns.active, active);
   assign(columns.position, position);
   assign(columns.orientation, orientation);
   assign(columns.velocity, velocity);
@@ -136,8 +173,12 @@ Model make_model(const Scene& scene, BodyColumns& columns) {
   model.features.has_friction = scene.friction.has_value();
   model.features.has_ledger = scene.energy_ledger;
   model.features.has_walls = !scene.walls.empty();
+  model.features.has_spheres =
+      std::find(model.body_is_sphere.begin(), model.body_is_sphere.end(), 1) != model.body_is_sphere.end();
   model.features.has_polyhedra =
       std::find(model.body_is_sphere.begin(), model.body_is_sphere.end(), 0) != model.body_is_sphere.end();
+  model.features.has_friction_couples =
+      has_rolling_friction(scene) || (model.features.has_friction && model.features.has_polyhedra);
   model.time_step = time_step(scene);
   Real mean_diameter = 0;
   for (const Real diameter : to_host(model.bodies.diameter)) mean_diameter += diameter;
@@ -177,6 +218,18 @@ struct Simulation::Engine {
     const BodyEnergy energy = body_energy(model, state);
     accounts.initial_kinetic = energy.kinetic;
     accounts.initial_gravitational = energy.gravitational;
+    find_forces();
+    refuse_deep_start(model, state);
+    refuse_fast_walls(model, state);
+    if (model.features.has_ledger) accounts.initial_elastic = book_start_energy(model, state);
+  }
+
+  /// Contacts and forces at time 0, as a step of no length: the first half kick needs them.
+  void find_forces() {
+    const Real time_step = std::exchange(model.time_step, Real(0));
+    for (const auto& pass : passes)
+      if (pass->finds_forces()) pass->run(model, state);
+    model.time_step = time_step;
   }
 
   void refuse_truncated_polygons() const {
@@ -203,6 +256,21 @@ void Simulation::advance(std::int64_t steps) {
     for (const auto& pass : engine_->passes) pass->run(engine_->model, engine_->state);
   engine_->state.accounts.wall_load_time += static_cast<double>(steps) * engine_->model.time_step;
   engine_->refuse_truncated_polygons();
+}
+
+void Simulation::push(int body, const Vec3& impulse, const Vec3& angular_impulse) {
+  const Model& model = engine_->model;
+  BodyColumns& bodies = engine_->state.bodies;
+  if (body < 0 || body >= static_cast<int>(bodies.position.size()))
+    throw catalog::InputError("push: there is no body " + std::to_string(body) + "; the scene has " +
+                              std::to_string(bodies.position.size()) + ", counted from 0");
+  const double before = body_energy(model, engine_->state).kinetic;
+  const std::size_t i = static_cast<std::size_t>(body);
+  const Vec3 turn = rotate_back(bodies.orientation[i], angular_impulse), inertia = model.bodies.inertia[i];
+  bodies.velocity[i] = Vec3(bodies.velocity[i]) + impulse / model.bodies.mass[i];
+  bodies.angular_velocity[i] =
+      Vec3(bodies.angular_velocity[i]) + Vec3{turn.x / inertia.x, turn.y / inertia.y, turn.z / inertia.z};
+  engine_->state.accounts.initial_kinetic += body_energy(model, engine_->state).kinetic - before;
 }
 
 double Simulation::time() const { return engine_->state.time(engine_->model); }
@@ -240,8 +308,7 @@ std::vector<WallLoad> Simulation::take_wall_loads() {
 }
 
 RunQuality Simulation::quality() const {
-  collect_accounts(engine_->model, engine_->state);
-  const Accounts& accounts = engine_->state.accounts;
+  const Accounts accounts = accounts_so_far(engine_->model, engine_->state);
   const double contact_time = accounts.largest_rate > 0 ? std::numbers::pi / std::sqrt(accounts.largest_rate) : 0;
   return {accounts.largest_overlap, contact_time / engine_->model.time_step, accounts.list_rebuilds};
 }
@@ -263,7 +330,7 @@ Snapshot Simulation::snapshot() const {
   Snapshot snapshot;
   snapshot.time = time();
   snapshot.step = state.step;
-  snapshot.active = to_host(state.bodies.active);
+  for (const char active : to_host(state.bodies.active)) snapshot.active.push_back(active != 0);
   snapshot.position = to_host(state.bodies.position);
   snapshot.orientation = to_host(state.bodies.orientation);
   snapshot.velocity = to_host(state.bodies.velocity);

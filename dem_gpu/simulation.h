@@ -20,7 +20,7 @@ struct EnergyLedger {
   double elastic_tangential = 0;
   double wall_work = 0;  // done by moving objects on the bodies
   double removed = 0;    // kinetic + gravitational + elastic of bodies that left by the outflow
-  double initial = 0;    // kinetic at time 0
+  double initial = 0;    // kinetic and elastic at time 0
   struct ClassLoss {
     std::string contact_class;  // "particle-particle", "particle-shell", ...
     double normal = 0;          // dissipated by damping
@@ -62,14 +62,20 @@ struct BulkState {
 /// One DEM run. Deterministic: the same scene gives the same bytes whatever the thread count.
 class Simulation {
  public:
-  /// Throws catalog::InputError if check(scene) does.
+  /// Throws catalog::InputError if check(scene) does, and if bodies overlap at time 0 by more than
+  /// scene.run.largest_start_overlap.
   explicit Simulation(const Scene& scene);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
 
-  /// Runs n steps. Throws std::runtime_error naming step and body if a body's state is no longer finite or one moves
-  /// more than half its size in a step.
+  /// Runs n steps. Throws std::runtime_error naming step, body and remedy if a body's state is no longer finite, if a
+  /// point of one moves more than a quarter of its least width in a step, or if energy comes from nothing.
   void advance(std::int64_t steps);
+
+  /// Gives a body an impulse through its centre and an angular impulse, world frame: a load from outside the engine,
+  /// force x time_step() before each step. The ledger counts the energy as initial.
+  /// Throws catalog::InputError if there is no such body.
+  void push(int body, const Vec3& impulse, const Vec3& angular_impulse);
 
   double time() const;
   double time_step() const;

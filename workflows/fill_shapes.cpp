@@ -110,6 +110,15 @@ ShapeCollector::Collected ShapeCollector::box(const BoxShape& box) {
   return collected_[name] = collected;
 }
 
+ShapeCollector::Collected ShapeCollector::ring(const RingShape& ring) {
+  const std::string name = with_millimetres("ring", {ring.diameter, ring.wire}) + ", " + std::to_string(ring.segments) +
+                           " segments of " + std::to_string(ring.sides) + " sides";
+  if (const auto known = collected_.find(name); known != collected_.end()) return known->second;
+  Collected collected = add(ring_shape(name, ring), {.name = name});
+  collected.sieve_size = collected.largest_feret = ring.diameter + ring.wire;
+  return collected_[name] = collected;
+}
+
 std::vector<ShapeCollector::Collected> ShapeCollector::selected(const FillDescription& fill,
                                                                 const CatalogueShapes& shapes) {
   const catalog::ShapeCatalog catalogue(shapes.catalogue, catalog::ShapeCatalog::Access::read_only);
@@ -154,6 +163,8 @@ std::vector<FillShape> ShapeCollector::shapes_of(const FillDescription& fill) {
     all = {ball(fill, *sphere)};
   else if (const auto* block = std::get_if<BoxShape>(&fill.shapes))
     all = {box(*block)};
+  else if (const auto* hoop = std::get_if<RingShape>(&fill.shapes))
+    all = {ring(*hoop)};
   else
     all = selected(fill, std::get<CatalogueShapes>(fill.shapes));
 

@@ -33,6 +33,7 @@ class ShapeCollector {
 
   Collected ball(const FillDescription& fill, const BallShape& ball);
   Collected box(const BoxShape& box);
+  Collected ring(const RingShape& ring);
   std::vector<Collected> selected(const FillDescription& fill, const CatalogueShapes& shapes);
   Collected add(dem_gpu::Shape shape, ShapeReport report);
 

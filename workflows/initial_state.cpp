@@ -121,9 +121,9 @@ std::string overlapping_balls(const std::vector<InitialBall>& balls, const std::
     for (std::size_t j = i + 1; j < order.size() && start(order[j]) < a.centre.x + a.radius; ++j) {
       const InitialBall& b = balls[order[j]];
       if (a.group == b.group || norm(a.centre - b.centre) >= a.radius + b.radius) continue;
-      return "bodies of fill \"" + group_names[static_cast<std::size_t>(std::min(a.group, b.group))] +
-             "\" and fill \"" + group_names[static_cast<std::size_t>(std::max(a.group, b.group))] +
-             "\" would start inside one another; move their regions apart, or give both the same region to mix them";
+      return "bodies of " + group_names[static_cast<std::size_t>(std::min(a.group, b.group))] + " and " +
+             group_names[static_cast<std::size_t>(std::max(a.group, b.group))] +
+             " would start inside one another; move their regions apart, or give both the same region to mix them";
     }
   }
   return {};

@@ -123,6 +123,7 @@ class RunLoop {
     ledger_ = simulation_.ledger();
     write_summary(true, "");
     progress_.finish();
+    plan_.folder.log(promise_line(plan_.assembled, promises(plan_.assembled, simulation_, ledger_)));
     for (const std::string& warning : run_warnings(plan_.assembled, plan_.description, simulation_, ledger_)) {
       std::fprintf(stderr, "simulate: warning: %s\n", warning.c_str());
       plan_.folder.log("warning: " + warning);

@@ -16,9 +16,6 @@ using dem_gpu::Scene;
 using dem_gpu::Vec3;
 using Json = nlohmann::ordered_json;
 
-// Energy out of balance by more than this share of what was put in is worth a warning.
-constexpr double kLargestImbalance = 0.02;
-
 std::string formatted(const char* format, ...) __attribute__((format(printf, 1, 2)));
 std::string formatted(const char* format, ...) {
   va_list arguments, again;
@@ -117,11 +114,13 @@ Json json_of(const dem_gpu::Wall& wall, const Scene& scene) {
 
 Json contact_law(const Scene& scene) {
   Json json;
-  if (const auto* law = std::get_if<dem_gpu::DepthPotential>(&scene.polyhedral_law))
+  if (const dem_gpu::DepthPotential* law = dem_gpu::depth_potential(scene.polyhedral_law))
     json["polyhedra"] = {{"law", "depth_potential"}, {"stiffness", law->stiffness}, {"depth_cap", law->depth_cap}};
   else
     json["polyhedra"] = {{"law", "volume"},
                          {"stiffness", std::get<dem_gpu::OverlapVolume>(scene.polyhedral_law).stiffness}};
+  if (const auto* law = std::get_if<dem_gpu::HardeningDepthPotential>(&scene.polyhedral_law))
+    json["polyhedra"].update({{"hardening", law->hardening}, {"flat_overlap", law->flat_overlap}});
   if (const auto* law = std::get_if<dem_gpu::LinearSpring>(&scene.sphere_law))
     json["spheres"] = {{"law", "linear"}, {"stiffness", law->stiffness}};
   else
@@ -186,6 +185,24 @@ Json fill_summary(const FillReport& report, const FillDescription& fill, const S
   return json;
 }
 
+Json chain_summary(const ChainReport& report, const ChainDescription& chain, const Scene& scene) {
+  const ChainLayout& layout = chain.layout;
+  return {
+      {"name", chain.name},
+      {"link",
+       scene.shapes[static_cast<std::size_t>(scene.bodies[static_cast<std::size_t>(report.first_body)].shape)].name},
+      {"material", scene.materials[static_cast<std::size_t>(chain.material)].name},
+      {"first_body", report.first_body},
+      {"links", report.bodies},
+      {"mass", report.mass},
+      {"start", json_of(layout.start)},
+      {layout.is_closed ? "axis" : "direction", json_of(layout.direction)},
+      {"gap", layout.gap},
+      {"closed", layout.is_closed},
+      {"hold_first", layout.holds_first},
+      {"velocity", json_of(chain.velocity)}};
+}
+
 bool has_size_range(const FillDescription& fill) {
   return fill.size && fill.size->size.front() < fill.size->size.back();
 }
@@ -235,6 +252,8 @@ nlohmann::ordered_json resolved_scene(const AssembledScene& assembled, const Sce
   json["run"] = {{"end_time", scene.run.end_time},
                  {"time_step", dem_gpu::time_step(scene)},
                  {"steps_per_contact", scene.run.time_step > 0 ? Json(nullptr) : Json(scene.run.steps_per_contact)},
+                 {"preset", dem_gpu::promise_of(scene.run.preset).name},
+                 {"largest_start_overlap", scene.run.largest_start_overlap},
                  {"shortest_contact_time", dem_gpu::shortest_contact_time(scene)},
                  {"snapshot_every", scene.run.snapshot_interval},
                  {"checkpoint_every", scene.run.checkpoint_interval},
@@ -250,6 +269,9 @@ nlohmann::ordered_json resolved_scene(const AssembledScene& assembled, const Sce
   json["fills"] = Json::array();
   for (std::size_t i = 0; i < assembled.fills.size(); ++i)
     json["fills"].push_back(fill_summary(assembled.fills[i], description.fills[i], scene));
+  json["chains"] = Json::array();
+  for (std::size_t i = 0; i < assembled.chains.size(); ++i)
+    json["chains"].push_back(chain_summary(assembled.chains[i], description.chains[i], scene));
   json["walls"] = Json::array();
   for (const dem_gpu::Wall& wall : scene.walls) json["walls"].push_back(json_of(wall, scene));
   json["outflow"] = nullptr;
@@ -260,24 +282,55 @@ nlohmann::ordered_json resolved_scene(const AssembledScene& assembled, const Sce
   return json;
 }
 
+std::vector<PromiseKept> promises(const AssembledScene& assembled, const dem_gpu::Simulation& simulation,
+                                  const dem_gpu::EnergyLedger& ledger) {
+  const dem_gpu::Promise promise = dem_gpu::promise_of(assembled.scene.run.preset);
+  const dem_gpu::RunQuality quality = simulation.quality();
+  std::vector<PromiseKept> all;
+  if (assembled.scene.energy_ledger)
+    all.push_back({"energy imbalance, share of the energy put in", imbalance_share(ledger), promise.energy_imbalance,
+                   imbalance_share(ledger) <= promise.energy_imbalance});
+  all.push_back({"largest overlap, share of the diameter", quality.largest_overlap, promise.largest_overlap,
+                 quality.largest_overlap <= promise.largest_overlap});
+  if (quality.smallest_steps_per_contact > 0)
+    all.push_back({"fewest steps in a contact", quality.smallest_steps_per_contact, promise.steps_per_contact,
+                   quality.smallest_steps_per_contact >= promise.steps_per_contact});
+  return all;
+}
+
+std::string promise_line(const AssembledScene& assembled, const std::vector<PromiseKept>& kept) {
+  std::string line = formatted("preset \"%s\"", dem_gpu::promise_of(assembled.scene.run.preset).name);
+  const char* before = ": ";
+  for (const PromiseKept& one : kept) {
+    line += formatted("%s%s %.3g (promised %.3g, %s)", before, one.figure.c_str(), one.value, one.promised,
+                      one.is_kept ? "kept" : "broken");
+    before = "; ";
+  }
+  return line;
+}
+
+std::optional<std::string> start_warning(const Scene& scene) {
+  const dem_gpu::Promise promise = dem_gpu::promise_of(scene.run.preset);
+  const double shortest = dem_gpu::shortest_contact_time(scene), steps = shortest / dem_gpu::time_step(scene);
+  // Rounding of a step stated to four digits breaks no promise.
+  constexpr double kRounding = 1e-3;
+  if (steps >= (1 - kRounding) * promise.steps_per_contact) return std::nullopt;
+  return formatted(
+      "a time step of %.4g us gives the shortest contact (%.4g us) %.3g steps, not the %.3g that preset \"%s\" "
+      "promises its accuracy for; use at most %.4g us",
+      1e6 * dem_gpu::time_step(scene), 1e6 * shortest, steps, promise.steps_per_contact, promise.name,
+      1e6 * shortest / promise.steps_per_contact);
+}
+
 std::vector<std::string> run_warnings(const AssembledScene& assembled, const SceneDescription& description,
                                       const dem_gpu::Simulation& simulation, const dem_gpu::EnergyLedger& ledger) {
   std::vector<std::string> warnings;
   const dem_gpu::RunQuality quality = simulation.quality();
-  const dem_gpu::RunControl& run = assembled.scene.run;
-  const double asked_steps =
-      run.time_step > 0 ? dem_gpu::shortest_contact_time(assembled.scene) / run.time_step : run.steps_per_contact;
-  // The shortest contact met may be shorter than the one foreseen by a little without harm.
-  if (quality.smallest_steps_per_contact > 0 && quality.smallest_steps_per_contact < 0.95 * asked_steps)
-    warnings.push_back(
-        formatted("the stiffest contact met had %.4g steps, not %.4g; state a shorter time_step or more "
-                  "steps_per_contact",
-                  quality.smallest_steps_per_contact, asked_steps));
-  if (assembled.scene.energy_ledger && imbalance_share(ledger) > kLargestImbalance)
-    warnings.push_back(
-        formatted("energy is out of balance by %.4g %% of what was put in (more than %.4g %%); state "
-                  "more steps_per_contact",
-                  100 * imbalance_share(ledger), 100 * kLargestImbalance));
+  if (const auto warning = start_warning(assembled.scene)) warnings.push_back(*warning);
+  const std::vector<PromiseKept> kept = promises(assembled, simulation, ledger);
+  if (std::any_of(kept.begin(), kept.end(), [](const PromiseKept& one) { return !one.is_kept; }))
+    warnings.push_back(promise_line(assembled, kept) +
+                       "; a finer preset or stiffer contacts (a higher at_speed) would mend it");
   if (description.stiffness.largest_overlap && quality.largest_overlap > *description.stiffness.largest_overlap)
     warnings.push_back(
         formatted("the largest overlap was %.4g %% of a body's diameter, at a corner or edge most likely; the %.4g %% "
@@ -315,6 +368,10 @@ nlohmann::ordered_json run_summary(const AssembledScene& assembled, const SceneD
   const dem_gpu::RunQuality quality = simulation.quality();
   json["quality"] = {{"largest_overlap", quality.largest_overlap},
                      {"smallest_steps_per_contact", quality.smallest_steps_per_contact}};
+  json["promise"] = {{"preset", dem_gpu::promise_of(assembled.scene.run.preset).name}};
+  for (const PromiseKept& one : promises(assembled, simulation, ledger))
+    json["promise"]["figures"].push_back(
+        {{"figure", one.figure}, {"value", one.value}, {"promised", one.promised}, {"kept", one.is_kept}});
   json["size_distribution"] = nullptr;  // of the first fill with a range of sizes
   json["size_distributions"] = Json::array();
   for (std::size_t i = 0; i < assembled.fills.size(); ++i) {
@@ -357,6 +414,8 @@ std::string scene_table(const AssembledScene& assembled) {
   for (std::size_t i = 0; i < assembled.fills.size(); ++i)
     table += formatted("  fill \"%s\": %d bodies, %.4g kg\n", assembled.fills[i].name.c_str(),
                        assembled.fills[i].bodies, assembled.fills[i].mass);
+  for (const ChainReport& chain : assembled.chains)
+    table += formatted("  chain \"%s\": %d links, %.4g kg\n", chain.name.c_str(), chain.bodies, chain.mass);
   if (polyhedral_stiffness(scene) > 0)
     table += formatted("  stiffness of polyhedra: %.4g N/m3\n", polyhedral_stiffness(scene));
   if (const auto* spring = std::get_if<dem_gpu::LinearSpring>(&scene.sphere_law); spring && spring->stiffness > 0)

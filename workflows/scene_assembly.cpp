@@ -69,9 +69,9 @@ std::vector<Body> sampled_bodies(const FillDescription& fill, std::vector<FillSh
 }
 
 /// Adds the fills' bodies to the scene, unplaced, and reports their sizes.
-void add_bodies(const SceneDescription& description, AssembledScene& assembled, std::vector<InitialBall>& balls) {
+void add_bodies(const SceneDescription& description, ShapeCollector& collector, AssembledScene& assembled,
+                std::vector<InitialBall>& balls) {
   Scene& scene = assembled.scene;
-  ShapeCollector collector(assembled);
   for (const FillDescription& fill : description.fills) {
     const std::vector<FillShape> shapes = collector.shapes_of(fill);
     const double density = scene.materials[static_cast<std::size_t>(fill.material)].density;
@@ -91,6 +91,39 @@ void add_bodies(const SceneDescription& description, AssembledScene& assembled, 
     report.bodies = static_cast<int>(sizes.size());
     report.realised = realised_sizes(sizes, masses);
     assembled.fills.push_back(std::move(report));
+  }
+}
+
+/// The shape of a chain's links: one, whatever the query may find.
+FillShape link_shape(const ChainDescription& chain, ShapeCollector& collector) {
+  FillDescription source;
+  source.place = chain.place;
+  source.shapes = chain.link;
+  const std::vector<FillShape> shapes = collector.shapes_of(source);
+  if (shapes.size() > 1)
+    throw catalog::InputError(chain.place + ": select finds " + std::to_string(shapes.size()) +
+                              " shapes; a chain has links of one, so narrow the query");
+  return shapes.front();
+}
+
+/// Adds the chains' links, placed. The engine's own check at the start finds those that reach into a wall or each
+/// other.
+void add_chains(const SceneDescription& description, ShapeCollector& collector, AssembledScene& assembled,
+                std::vector<InitialBall>& balls) {
+  Scene& scene = assembled.scene;
+  const int group = static_cast<int>(description.fills.size());
+  for (const ChainDescription& chain : description.chains) {
+    const FillShape link = link_shape(chain, collector);
+    ChainReport report{chain.name, static_cast<int>(scene.bodies.size()), chain.layout.links, 0};
+    for (Body& body : chain_bodies(scene.shapes[static_cast<std::size_t>(link.index)], chain.layout, chain.place)) {
+      body.shape = link.index;
+      body.material = chain.material;
+      if (!body.is_fixed) body.velocity = to_vec3(chain.velocity);
+      report.mass += mass_of(scene, body);
+      balls.push_back({body.position, link.bounding_radius, group});
+      scene.bodies.push_back(body);
+    }
+    assembled.chains.push_back(report);
   }
 }
 
@@ -126,7 +159,8 @@ void place_bodies(const SceneDescription& description, AssembledScene& assembled
 void refuse_bad_start(const SceneDescription& description, const AssembledScene& assembled,
                       const std::vector<InitialBall>& balls) {
   std::vector<std::string> names;
-  for (const FillDescription& fill : description.fills) names.push_back(fill.name);
+  for (const FillDescription& fill : description.fills) names.push_back("fill \"" + fill.name + "\"");
+  names.push_back("a chain");
   if (const std::string line = overlapping_balls(balls, names); !line.empty())
     throw catalog::InputError(description.file.string() + ": " + line);
   for (std::size_t fill = 0; fill < description.fills.size(); ++fill)
@@ -170,9 +204,12 @@ void set_stiffness(const SceneDescription& description, Scene& scene) {
       throw catalog::InputError(file +
                                 ": contact_law: stiffness of polyhedra is missing; state stiffness = \"2e7 N/m3\""
                                 " or largest_overlap with at_speed");
-    polyhedra = dem_gpu::stiffness_for_overlap(scene, choice.at_speed, *choice.largest_overlap);
+    polyhedra = dem_gpu::stiffness_for_overlap(scene, choice.at_speed, *choice.largest_overlap, choice.overlap_at);
   }
   std::visit([&](auto& law) { law.stiffness = polyhedra; }, scene.polyhedral_law);
+  if (auto* hardening = std::get_if<dem_gpu::HardeningDepthPotential>(&scene.polyhedral_law);
+      hardening && has_polyhedra && choice.largest_overlap)
+    hardening->flat_overlap = dem_gpu::flat_overlap(scene, choice.at_speed);
 
   if (auto* spring = std::get_if<dem_gpu::LinearSpring>(&scene.sphere_law)) {
     if (has_spheres && !choice.spheres && !choice.largest_overlap)
@@ -190,8 +227,10 @@ AssembledScene assemble_scene(const SceneDescription& description) {
   AssembledScene assembled;
   assembled.scene = description.scene;
   std::vector<InitialBall> balls;  // as Scene::bodies
-  add_bodies(description, assembled, balls);
+  ShapeCollector collector(assembled);
+  add_bodies(description, collector, assembled, balls);
   place_bodies(description, assembled, balls);
+  add_chains(description, collector, assembled, balls);
   refuse_bad_start(description, assembled, balls);
   set_stiffness(description, assembled.scene);
   return assembled;

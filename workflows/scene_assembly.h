@@ -28,6 +28,13 @@ struct FillReport {
   RealisedSizes realised;
 };
 
+struct ChainReport {
+  std::string name;
+  int first_body = 0;
+  int bodies = 0;
+  double mass = 0;  // [kg]
+};
+
 struct CatalogueUsed {
   std::filesystem::path path;
   std::string sha256;
@@ -38,6 +45,7 @@ struct AssembledScene {
   dem_gpu::Scene scene;
   std::vector<ShapeReport> shapes;  // as Scene::shapes
   std::vector<FillReport> fills;    // as SceneDescription::fills
+  std::vector<ChainReport> chains;  // as SceneDescription::chains; their bodies stand behind the fills'
   std::vector<CatalogueUsed> catalogues;
 };
 

@@ -11,10 +11,10 @@ constexpr int kMostParts = 1024;
 // Tables of passing must end at 100 % within this share.
 constexpr double kFullShareTolerance = 1e-6;
 
-std::variant<CatalogueShapes, BallShape, BoxShape> read_shapes(TomlTable& table,
-                                                               const std::filesystem::path& base_folder) {
-  const int sources = table.has("shapes_from") + table.has("sphere") + table.has("box");
-  if (sources != 1) table.refuse("state the shape once: shapes_from = \"ore.talus\", sphere = {...} or box = {...}");
+ShapeSource read_shapes(TomlTable& table, const std::filesystem::path& base_folder) {
+  const int sources = table.has("shapes_from") + table.has("sphere") + table.has("box") + table.has("ring");
+  if (sources != 1)
+    table.refuse("state the shape once: shapes_from = \"ore.talus\", sphere = {...}, box = {...} or ring = {...}");
   if (table.has("sphere")) {
     TomlTable sphere = table.table("sphere");
     const BallShape ball{sphere.quantity("diameter", Dimension::length, kPositive, 1.0)};
@@ -33,13 +33,8 @@ std::variant<CatalogueShapes, BallShape, BoxShape> read_shapes(TomlTable& table,
     box.finish();
     return shape;
   }
-  CatalogueShapes shapes;
-  shapes.catalogue = base_folder / table.text("shapes_from");
-  shapes.query = table.text("select", "");
-  shapes.parts = static_cast<int>(table.integer("parts", 1, kMostParts));
-  if (table.has("vertices"))
-    shapes.vertex_cap = static_cast<int>(table.integer("vertices", 4, dem_gpu::kMaxPartVertices));
-  return shapes;
+  if (table.has("ring")) return read_ring(table.table("ring"));
+  return read_catalogue_shapes(table, base_folder);
 }
 
 FillRegion read_region(TomlTable where) {
@@ -108,6 +103,27 @@ SizeDistribution read_table(TomlTable& table, SizeBasis basis) {
 
 }  // namespace
 
+CatalogueShapes read_catalogue_shapes(TomlTable& table, const std::filesystem::path& base_folder) {
+  CatalogueShapes shapes;
+  shapes.catalogue = base_folder / table.text("shapes_from");
+  shapes.query = table.text("select", "");
+  shapes.parts = static_cast<int>(table.integer("parts", 1, kMostParts));
+  if (table.has("vertices"))
+    shapes.vertex_cap = static_cast<int>(table.integer("vertices", 4, dem_gpu::kMaxPartVertices));
+  return shapes;
+}
+
+RingShape read_ring(TomlTable table) {
+  RingShape ring;
+  ring.diameter = table.quantity("diameter", Dimension::length, kPositive);
+  const Bounds thin{0, ring.diameter / 2, true, "more than 0, less than half the ring's diameter"};
+  ring.wire = table.quantity("wire", Dimension::length, thin);
+  if (table.has("segments")) ring.segments = static_cast<int>(table.integer("segments", 4, kMostParts));
+  if (table.has("sides")) ring.sides = static_cast<int>(table.integer("sides", 3, dem_gpu::kMaxFaceCorners));
+  table.finish();
+  return ring;
+}
+
 void read_size_distribution(TomlTable& table, FillDescription& fill) {
   const int kind = table.choice("kind", {"table", "rosin-rammler", "lognormal", "single"});
   constexpr SizeDefinition definitions[] = {SizeDefinition::sieve, SizeDefinition::volume_equivalent,
@@ -162,7 +178,6 @@ std::vector<FillDescription> read_fills(TomlTable& file, const dem_gpu::Scene& s
     table.finish();
     fills.push_back(std::move(fill));
   }
-  if (fills.empty()) file.refuse("nothing to simulate: add a [[fill]] section");
   return fills;
 }
 

@@ -15,7 +15,6 @@ namespace {
 
 using dem_gpu::Scene;
 
-constexpr double kStandardSteps = 20;
 // Snapshots of a run that states no interval: enough for a smooth animation.
 constexpr int kUsualSnapshots = 50;
 
@@ -25,13 +24,14 @@ void read_run(TomlTable table, dem_gpu::RunControl& run) {
   run.time_step = automatic ? 0 : table.quantity("time_step", Dimension::time, kPositive);
   if (table.has("preset") && table.has("steps_per_contact"))
     table.refuse("steps_per_contact", "preset and steps_per_contact both state the time step; keep one");
-  if (!automatic && (table.has("preset") || table.has("steps_per_contact")))
-    table.refuse("time_step", "time_step is given, so preset and steps_per_contact have no meaning; keep one");
-  run.steps_per_contact = table.quantity("steps_per_contact", Dimension::ratio, kPositive, kStandardSteps);
-  if (table.has("preset")) {
-    constexpr double steps_of_preset[] = {10, 20, 40};
-    run.steps_per_contact = steps_of_preset[table.choice("preset", {"draft", "standard", "reference"})];
-  }
+  if (!automatic && table.has("steps_per_contact"))
+    table.refuse("time_step", "time_step is given, so steps_per_contact has no meaning; keep one");
+  if (table.has("preset"))
+    run.preset = static_cast<dem_gpu::Preset>(table.choice("preset", {"draft", "standard", "reference"}));
+  run.steps_per_contact = table.quantity("steps_per_contact", Dimension::ratio, kPositive,
+                                         dem_gpu::promise_of(run.preset).steps_per_contact);
+  run.largest_start_overlap =
+      table.quantity("largest_start_overlap", Dimension::ratio, kPositive, run.largest_start_overlap);
   run.snapshot_interval = table.quantity("snapshot_every", Dimension::time, kPositive, run.end_time / kUsualSnapshots);
   run.checkpoint_interval = table.quantity("checkpoint_every", Dimension::time, kNotNegative, 0);
   run.series_interval = table.quantity("series_every", Dimension::time, kPositive, run.snapshot_interval);
@@ -53,13 +53,17 @@ void read_materials(TomlTable& file, Scene& scene) {
 }
 
 dem_gpu::ContactProperties read_contact(TomlTable& table, const dem_gpu::ContactProperties* defaults) {
-  const Bounds restitution{0.01, 1, false, "from 0.01 to 1"};
+  const Bounds restitution{0, 1, false, "from 0 to 1"};
   dem_gpu::ContactProperties contact;
   contact.restitution = defaults ? table.quantity("restitution", Dimension::ratio, restitution, defaults->restitution)
                                  : table.quantity("restitution", Dimension::ratio, restitution);
   contact.friction_coefficient =
       defaults ? table.quantity("friction", Dimension::ratio, kNotNegative, defaults->friction_coefficient)
                : table.quantity("friction", Dimension::ratio, kNotNegative);
+  const dem_gpu::ContactProperties otherwise = defaults ? *defaults : dem_gpu::ContactProperties{};
+  contact.rolling_friction =
+      table.quantity("rolling_friction", Dimension::ratio, kNotNegative, otherwise.rolling_friction);
+  contact.adhesion = table.quantity("adhesion", Dimension::surface_energy, kNotNegative, otherwise.adhesion);
   table.finish();
   return contact;
 }
@@ -104,6 +108,8 @@ void read_contact_law(TomlTable table, SceneDescription& description) {
     dem_gpu::DepthPotential law;
     law.depth_cap = table.quantity("depth_cap", Dimension::ratio, kShare, law.depth_cap);
     scene.polyhedral_law = law;
+    if (const auto hardening = table.optional_quantity("hardening", Dimension::ratio, kPositive))
+      scene.polyhedral_law = dem_gpu::HardeningDepthPotential{law, *hardening};
   } else {
     scene.polyhedral_law = dem_gpu::OverlapVolume{};
   }
@@ -119,6 +125,8 @@ void read_contact_law(TomlTable table, SceneDescription& description) {
     if (stiffness.polyhedra && (stiffness.spheres || is_hertz))
       table.refuse("largest_overlap", "every stiffness is given, so largest_overlap has no meaning; keep one");
     stiffness.at_speed = table.quantity("at_speed", Dimension::speed, kPositive);
+    if (table.has("overlap_at"))
+      stiffness.overlap_at = dem_gpu::OverlapAt{table.choice("overlap_at", {"face", "corner"})};
   } else if (!stiffness.polyhedra && !stiffness.spheres && !is_hertz) {
     table.refuse("state how stiff contacts are: largest_overlap = \"3 %\" with at_speed = \"2 m/s\", or stiffness");
   }
@@ -165,7 +173,7 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
   Scene& scene = description.scene;
   TomlTable table(root, file.string(), "");
   table.expect_only({"name", "gravity", "run", "material", "contact", "contact_law", "ledger", "motion", "wall",
-                     "lifters", "outflow", "fill"});
+                     "lifters", "outflow", "fill", "chain"});
   scene.name = table.text("name", file.stem().string());
   if (scene.name.empty() || scene.name == "." || scene.name == ".." || scene.name.find('/') != std::string::npos)
     table.refuse("name", "name must not be empty, \".\" or \"..\" or hold '/': the run's folder is named for it");
@@ -183,6 +191,9 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
   read_walls(table, read_motions(table), base_folder, scene);
   read_outflow(table, scene);
   description.fills = read_fills(table, scene, base_folder);
+  description.chains = read_chains(table, scene, base_folder);
+  if (description.fills.empty() && description.chains.empty())
+    table.refuse("nothing to simulate: add a [[fill]] or [[chain]] section");
   return description;
 }
 

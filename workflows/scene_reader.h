@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "dem_gpu/scene.h"
+#include "workflows/chain.h"
 #include "workflows/fill.h"
+#include "workflows/ring_shape.h"
 #include "workflows/size_distribution.h"
 
 namespace workflows {
@@ -30,11 +32,13 @@ struct BoxShape {
   Point size{};  // edges [m]
 };
 
+using ShapeSource = std::variant<CatalogueShapes, BallShape, BoxShape, RingShape>;
+
 /// One [[fill]]: which bodies, how many, how large, where.
 struct FillDescription {
   std::string name;
   std::string place;  // "scene.toml:12:1: fill "ore"", for messages
-  std::variant<CatalogueShapes, BallShape, BoxShape> shapes;
+  ShapeSource shapes;
   int material = 0;                                             // index into Scene::materials
   std::variant<std::int64_t, double> amount = std::int64_t{0};  // number of bodies, or mass [kg]
   std::optional<SizeDistribution> size;                         // nullopt: shapes as they are
@@ -44,12 +48,23 @@ struct FillDescription {
   Point velocity{};  // at time 0 [m/s]
 };
 
+/// One [[chain]]: links of one shape.
+struct ChainDescription {
+  std::string name;
+  std::string place;  // "scene.toml:12:1: chain "hoist"", for messages
+  ShapeSource link;
+  int material = 0;  // index into Scene::materials
+  ChainLayout layout;
+  Point velocity{};  // of the links that are not held, at time 0 [m/s]
+};
+
 /// How the stiffness of contacts follows: given, or from the overlap allowed at an impact speed.
 struct StiffnessChoice {
   std::optional<double> polyhedra;        // [N/m3]
   std::optional<double> spheres;          // [N/m]
   std::optional<double> largest_overlap;  // share of the body's equivalent diameter [-]
-  double at_speed = 0;                    // [m/s]
+  dem_gpu::OverlapAt overlap_at = dem_gpu::OverlapAt::face;
+  double at_speed = 0;  // [m/s]
 };
 
 /// A scene file as written: everything that needs neither catalogue nor engine.
@@ -60,6 +75,7 @@ struct SceneDescription {
   dem_gpu::Scene scene;   // without shapes and bodies; stiffness still to be worked out
   StiffnessChoice stiffness;
   std::vector<FillDescription> fills;
+  std::vector<ChainDescription> chains;
 };
 
 /// Reads a scene file. Relative paths in it start from `base_folder`, or the file's folder if that is empty.

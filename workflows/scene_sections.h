@@ -30,6 +30,15 @@ void read_walls(TomlTable& file, const NamedMotions& motions, const std::filesys
 std::vector<FillDescription> read_fills(TomlTable& file, const dem_gpu::Scene& scene,
                                         const std::filesystem::path& base_folder);
 
+/// [[chain]].
+std::vector<ChainDescription> read_chains(TomlTable& file, const dem_gpu::Scene& scene,
+                                          const std::filesystem::path& base_folder);
+
+/// The catalogue's shapes that a table asks for.
+CatalogueShapes read_catalogue_shapes(TomlTable& table, const std::filesystem::path& base_folder);
+/// `ring = {...}`.
+RingShape read_ring(TomlTable ring);
+
 /// `size` of a fill.
 void read_size_distribution(TomlTable& table, FillDescription& fill);
 

@@ -198,6 +198,10 @@ int simulate(const SimulateOptions& options) {
     folder.start(description, resolved, simulation.geometry());
   }
   start_log(folder, simulation, options);
+  if (const auto warning = start_warning(assembled.scene)) {
+    std::fprintf(stderr, "simulate: warning: %s\n", warning->c_str());
+    folder.log("warning: " + *warning);
+  }
   std::fprintf(stderr, "%s%s", scene_table(assembled).c_str(), size_table(assembled, description).c_str());
   const ExitStatus status = run_to_end(simulation, plan, from_checkpoint);
   if (options.json)

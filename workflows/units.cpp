@@ -26,6 +26,7 @@ const UnitTable& units_of(Dimension dimension) {
   static const UnitTable pressure{{"Pa", 1}, {"kPa", 1e3}, {"MPa", 1e6}, {"GPa", 1e9}};
   static const UnitTable stiffness_volume{{"N/m3", 1}, {"N/mm3", 1e9}};
   static const UnitTable stiffness_length{{"N/m", 1}, {"kN/m", 1e3}, {"N/mm", 1e3}};
+  static const UnitTable surface_energy{{"J/m2", 1}, {"mJ/m2", 1e-3}};
   static const UnitTable ratio{{"", 1}, {"%", 1e-2}};
   switch (dimension) {
     case Dimension::length:
@@ -50,6 +51,8 @@ const UnitTable& units_of(Dimension dimension) {
       return stiffness_volume;
     case Dimension::stiffness_length:
       return stiffness_length;
+    case Dimension::surface_energy:
+      return surface_energy;
     case Dimension::ratio:
       return ratio;
   }

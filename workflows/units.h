@@ -18,6 +18,7 @@ enum class Dimension {
   pressure,          // Pa
   stiffness_volume,  // N/m3, per volume of overlap
   stiffness_length,  // N/m
+  surface_energy,    // J/m2
   ratio,             // -, "5 %" is 0.05
 };
 

@@ -7,6 +7,13 @@
 
 namespace dem_gpu {
 
+/// How far any point of a body may travel in a step, in least widths. At half the width two bodies that meet head on
+/// could each reach the other's middle between two looks, beyond which the contact would push them on through.
+inline constexpr Real kTravelShare = Real(0.25);
+
+/// Values of BodyColumns::active.
+enum class BodyState : char { removed = 0, moving = 1, fixed = 2 };
+
 /// What does not change during a run, one entry a body (n_bodies).
 struct BodyConstants {
   DeviceVector<int> shape;
@@ -16,11 +23,12 @@ struct BodyConstants {
   DeviceVector<Vec3> inertia;          // principal [kg m2]
   DeviceVector<Real> bounding_radius;  // [m]
   DeviceVector<Real> diameter;         // of the sphere of equal volume [m]
+  DeviceVector<Real> least_width;      // between parallel planes, see shapes/least_width.h [m]
 };
 
 /// Moving state of the bodies, one entry each (n_bodies).
 struct BodyColumns {
-  DeviceVector<char> active;             // 0 once removed
+  DeviceVector<char> active;             // BodyState; 0 once removed
   DeviceVector<Vec3> position;           // centre of mass, world frame [m]
   DeviceVector<Quaternion> orientation;  // unit, body to world
   DeviceVector<Vec3> velocity;           // world frame [m/s]
@@ -45,6 +53,7 @@ struct BodyView {
   const Vec3* inertia;
   const Real* bounding_radius;
   const Real* diameter;
+  const Real* least_width;
   char* active;
   Vec3* position;
   Quaternion* orientation;
@@ -58,6 +67,13 @@ struct BodyView {
   Vec3* mean_angular_velocity;
   Vec3* listed_position;
   Real* listed_displacement;
+
+  /// Largest distance of a point from the centre that turning moves about; 0 for a sphere, which turns onto itself [m].
+  TALUS_HD Real turning_radius(int i) const {
+    return least_width[i] < 2 * bounding_radius[i] ? bounding_radius[i] : Real(0);
+  }
+  TALUS_HD bool is_moving(int i) const { return active[i] == static_cast<char>(BodyState::moving); }
+  TALUS_HD bool is_fixed(int i) const { return active[i] == static_cast<char>(BodyState::fixed); }
 };
 
 inline BodyView view(const BodyConstants& constants, BodyColumns& columns) {
@@ -69,6 +85,7 @@ inline BodyView view(const BodyConstants& constants, BodyColumns& columns) {
           pointer(constants.inertia),
           pointer(constants.bounding_radius),
           pointer(constants.diameter),
+          pointer(constants.least_width),
           pointer(columns.active),
           pointer(columns.position),
           pointer(columns.orientation),

@@ -7,7 +7,7 @@
 
 #include "dem_gpu/bodies/body_columns.h"
 #include "dem_gpu/contacts/contact_columns.h"
-#include "dem_gpu/contacts/contact_response.h"
+#include "dem_gpu/contacts/friction/friction_contact.h"
 #include "dem_gpu/meshes/mesh_columns.h"
 #include "dem_gpu/scene.h"
 #include "dem_gpu/shapes/shape_columns.h"
@@ -45,6 +45,7 @@ struct Accounts {
   std::vector<Vec3> wall_impulse, wall_angular_impulse;  // per wall, since last taken [N s], [N m s]
   double wall_load_time = 0;                             // since last taken [s]
   double initial_kinetic = 0;                            // [J]
+  double initial_elastic = 0;                            // of contacts that overlap at time 0 [J]
   double initial_gravitational = 0;                      // [J]
   double removed_energy = 0;                             // all that left with removed bodies [J]
   double removed_gravitational = 0;                      // its gravitational part [J]
@@ -70,7 +71,9 @@ struct State {
   Real time(const Model& model) const { return static_cast<Real>(step) * model.time_step; }
 };
 
-/// Empties the contact columns' running sums into the accounts.
+/// The accounts with the contact columns' running sums added.
+Accounts accounts_so_far(const Model& model, const State& state);
+/// Empties those sums into the accounts.
 void collect_accounts(const Model& model, State& state);
 
 }  // namespace dem_gpu

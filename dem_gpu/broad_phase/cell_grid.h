@@ -7,7 +7,8 @@
 namespace dem_gpu {
 
 /// Uniform grid over the active bodies: bodies sorted by cell. Cells are 64-bit keys, so memory does not depend on the
-/// extent of the scene; a column of cells along z is one run of keys.
+/// extent of the scene; a column of cells along z is one run of keys. Cells are counted from the lowest body, 2^21
+/// along an axis at most: beyond that they grow.
 class CellGrid {
  public:
   struct View {

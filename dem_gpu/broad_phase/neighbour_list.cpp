@@ -7,6 +7,7 @@
 
 #include "dem_gpu/broad_phase/cell_grid.h"
 #include "dem_gpu/core/parallel.h"
+#include "dem_gpu/energy/energy_watch.h"
 #include "dem_gpu/meshes/facet_lists.h"
 #include "dem_gpu/walls/wall_surface.h"
 
@@ -72,13 +73,13 @@ struct ListPairs {
       const Real radius = bodies.bounding_radius[i];
       ContactKey* out = keys ? keys + first[i] : nullptr;
       grid.visit_neighbours(x, [&](int j) {
-        if (j <= i) return;
+        if (j <= i || (bodies.is_fixed(i) && bodies.is_fixed(j))) return;
         const Real reach = radius + bodies.bounding_radius[j] + skin;
         if (norm_squared(bodies.position[j] - x) >= reach * reach) return;
         if (out) out[count] = pair_key(shapes.shapes, bodies.shape, i, j);
         ++count;
       });
-      for (int w = 0; w < wall_count; ++w) {
+      for (int w = 0; w < wall_count && !bodies.is_fixed(i); ++w) {
         if (!is_near_wall(shapes, meshes, walls[w], x, radius + skin)) continue;
         if (out) out[count] = wall_key(shapes.shapes, bodies.shape[i], walls[w], i, w);
         ++count;
@@ -127,7 +128,10 @@ struct CarryHistory {
       for (int k = 0; k < length; ++k)
         to.separating[to.cache_begin[c] + k] = from.separating[from.cache_begin[old] + k];
     }
+    if (features.has_spheres) to.owed_kick[c] = from.owed_kick[old];
     if (features.has_friction) to.tangential_displacement[c] = from.tangential_displacement[old];
+    if (features.has_friction_couples) to.turning_displacement[c] = from.turning_displacement[old];
+    if (features.has_friction && features.has_polyhedra) to.spring_normal[c] = from.spring_normal[old];
     if (features.has_ledger) {
       to.elastic_work[c] = from.elastic_work[old];
       to.tangential_energy[c] = from.tangential_energy[old];
@@ -136,6 +140,7 @@ struct CarryHistory {
       to.last_elastic_torque_b[c] = from.last_elastic_torque_b[old];
       to.last_damping_force[c] = from.last_damping_force[old];
       to.last_friction_force[c] = from.last_friction_force[old];
+      if (features.has_friction_couples) to.last_friction_couple[c] = from.last_friction_couple[old];
     }
   }
 };
@@ -209,12 +214,23 @@ void list_incidence(State& state, int body_count) {
     std::snprintf(components, sizeof components, "(%.6g, %.6g, %.6g)", double(a.x), double(a.y), double(a.z));
     return std::string(components);
   };
-  char time[32];
-  std::snprintf(time, sizeof time, "%.6g", double(state.time(model)));
-  throw std::runtime_error("step " + std::to_string(state.step) + ", time " + time + " s: body " +
-                           std::to_string(body) + " at " + text(x) + " m moves at " + text(v) +
-                           " m/s, more than half its radius in a step or not finite; use a shorter time step, or check "
-                           "that no bodies overlap at the start");
+  const Vec3 spin = state.bodies.angular_velocity[body];
+  const Real width = model.bodies.least_width[body], radius = model.bodies.bounding_radius[body];
+  const Real speed = norm(v) + (width < 2 * radius ? radius * norm(spin) : Real(0));
+  char tail[320];
+  if (std::isfinite(speed) && norm(x) < Real(1e300))
+    std::snprintf(
+        tail, sizeof tail,
+        " m/s and turns at %.6g rad/s: up to %.4g m in a step, more than a quarter of its least width of %.4g "
+        "m, so that it could pass through another body; use a time step of at most %.3g s, or check what sped "
+        "it up",
+        double(norm(spin)), double(speed * model.time_step), double(width), double(kTravelShare * width / speed));
+  else
+    std::snprintf(tail, sizeof tail,
+                  " m/s, no longer a finite motion; use a shorter time step or softer contacts, and check that no "
+                  "bodies overlap at the start");
+  throw std::runtime_error(step_place(model, state) + "body " + std::to_string(body) + " at " + text(x) +
+                           " m moves at " + text(v) + tail);
 }
 
 class NeighbourList : public Pass {
@@ -227,6 +243,8 @@ class NeighbourList : public Pass {
     // Two bodies may each have come half a skin closer; a wall's own motion takes its share.
     const bool is_worn = 2 * moved + state.walls.largest_displacement(state.listed_time, time) > model.skin;
     if (!is_worn && !state.list_is_stale) return;
+    refuse_created_energy(model, state);
+    refuse_pushed_through(model, state);
     build_neighbour_list(model, state);
   }
 };

@@ -25,7 +25,10 @@ ContactView view(ContactColumns& c) {
           pointer(c.separating),
           pointer(c.facet_begin),
           pointer(c.facet),
+          pointer(c.owed_kick),
           pointer(c.tangential_displacement),
+          pointer(c.turning_displacement),
+          pointer(c.spring_normal),
           pointer(c.elastic_work),
           pointer(c.tangential_energy),
           pointer(c.loss_normal),
@@ -36,6 +39,7 @@ ContactView view(ContactColumns& c) {
           pointer(c.last_elastic_torque_b),
           pointer(c.last_damping_force),
           pointer(c.last_friction_force),
+          pointer(c.last_friction_couple),
           pointer(c.wall_impulse),
           pointer(c.wall_angular_impulse)};
 }
@@ -51,7 +55,10 @@ void resize_columns(ContactColumns& columns, int count, const ContactFeatures& f
   reset(columns.is_truncated, count);
   reset(columns.cache_begin, features.has_polyhedra ? count + 1 : 0);
   reset(columns.facet_begin, features.has_meshes ? count + 1 : 0);
+  reset(columns.owed_kick, features.has_spheres ? count : 0);
   reset(columns.tangential_displacement, features.has_friction ? count : 0);
+  reset(columns.turning_displacement, features.has_friction_couples ? count : 0);
+  reset(columns.spring_normal, features.has_friction && features.has_polyhedra ? count : 0);
   const int ledger = features.has_ledger ? count : 0;
   for (DeviceVector<Real>* column : {&columns.elastic_work, &columns.tangential_energy, &columns.loss_normal,
                                      &columns.loss_shear, &columns.wall_work})
@@ -60,6 +67,7 @@ void resize_columns(ContactColumns& columns, int count, const ContactFeatures& f
        {&columns.last_elastic_force, &columns.last_elastic_torque_a, &columns.last_elastic_torque_b,
         &columns.last_damping_force, &columns.last_friction_force})
     reset(*column, ledger);
+  reset(columns.last_friction_couple, features.has_friction_couples ? ledger : 0);
   reset(columns.wall_impulse, features.has_walls ? count : 0);
   reset(columns.wall_angular_impulse, features.has_walls ? count : 0);
 }

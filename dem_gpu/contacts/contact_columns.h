@@ -52,9 +52,17 @@ struct ContactColumns {
   // With meshes.
   DeviceVector<int> facet_begin;  // first entry in facet, n_contacts + 1; empty lists for other kinds
   DeviceVector<int> facet;        // facets that the body may touch, ascending, all lists end to end
+  // With spheres.
+  DeviceVector<Real> owed_kick;  // loss of approach speed of the last step that the next one takes [m/s]
 
   // With friction.
   DeviceVector<Vec3> tangential_displacement;  // of the spring, world frame [m]
+
+  // With friction that resists turning.
+  DeviceVector<Vec3> turning_displacement;  // of the rotational spring: lever x angle, world frame [m]
+
+  // With friction of polyhedra.
+  DeviceVector<Vec3> spring_normal;  // contact normal that the springs last followed, zero if new
 
   // With a ledger.
   DeviceVector<Real> elastic_work;           // recoverable, done against the elastic normal force since touch [J]
@@ -67,6 +75,7 @@ struct ContactColumns {
   DeviceVector<Vec3> last_elastic_torque_b;  // [N m]
   DeviceVector<Vec3> last_damping_force;     // on a [N]
   DeviceVector<Vec3> last_friction_force;    // on a [N]
+  DeviceVector<Vec3> last_friction_couple;   // on a, with friction that resists turning [N m]
 
   // With walls; zero for pairs of bodies.
   DeviceVector<Vec3> wall_impulse;          // on the wall since last read [N s]
@@ -87,7 +96,10 @@ struct ContactView {
   SeparatingPlane* separating;
   const int* facet_begin;
   const int* facet;
+  Real* owed_kick;
   Vec3* tangential_displacement;
+  Vec3* turning_displacement;
+  Vec3* spring_normal;
   Real* elastic_work;
   Real* tangential_energy;
   Real* loss_normal;
@@ -98,6 +110,7 @@ struct ContactView {
   Vec3* last_elastic_torque_b;
   Vec3* last_damping_force;
   Vec3* last_friction_force;
+  Vec3* last_friction_couple;
   Vec3* wall_impulse;
   Vec3* wall_angular_impulse;
 };
@@ -110,6 +123,8 @@ struct ContactFeatures {
   bool has_ledger = false;
   bool has_walls = false;
   bool has_polyhedra = false;
+  bool has_friction_couples = false;
+  bool has_spheres = false;
   bool has_meshes = false;
 };
 

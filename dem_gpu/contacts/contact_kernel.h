@@ -8,6 +8,10 @@
 #include <variant>
 
 #include "dem_gpu/bodies/model_state.h"
+#include "dem_gpu/contacts/contact_response.h"
+#include "dem_gpu/contacts/friction/no_friction.h"
+#include "dem_gpu/contacts/friction/patch_friction.h"
+#include "dem_gpu/contacts/friction/tangential_spring.h"
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/core/pass.h"
 
@@ -58,23 +62,25 @@ struct ComputeContact {
     const ContactKey key = scene.contacts.key[c];
     const int a = key_body_a(key), b = key_body_b(key);
     ElasticContact elastic;
-    const bool is_touching = geometry.find(scene, c, a, b, elastic);
+    typename Friction::Patch patch;
+    const bool is_touching = geometry.find(scene, c, a, b, elastic, patch);
     if (!is_touching && scene.contacts.depth[c] == 0) return;
     const ContactSide side_a = body_side(scene.bodies, a);
     const ContactSide side_b = other_side(b);
     if (!is_touching) {
-      end_contact<Friction, Record>(scene.contacts, c, side_a, side_b, scene.time_step);
+      end_contact<typename Geometry::Damping, Friction, Record>(scene.contacts, c, side_a, side_b, scene.time_step);
       return;
     }
     const int material_a = scene.bodies.material[a];
     const Real diameter_a = scene.bodies.diameter[a];
     if constexpr (Geometry::Partner::kIsWall)
-      respond<Friction, Record>(scene.contacts, c, elastic, side_a, side_b,
-                                scene.pair(material_a, scene.walls[b].material), friction, scene.time_step, diameter_a);
+      respond<typename Geometry::Damping, Friction, Record>(scene.contacts, c, elastic, side_a, side_b,
+                                                            scene.pair(material_a, scene.walls[b].material), friction,
+                                                            patch, scene.time_step, diameter_a);
     else
-      respond<Friction, Record>(scene.contacts, c, elastic, side_a, side_b,
-                                scene.pair(material_a, scene.bodies.material[b]), friction, scene.time_step,
-                                std::min(diameter_a, scene.bodies.diameter[b]));
+      respond<typename Geometry::Damping, Friction, Record>(
+          scene.contacts, c, elastic, side_a, side_b, scene.pair(material_a, scene.bodies.material[b]), friction, patch,
+          scene.time_step, std::min(diameter_a, scene.bodies.diameter[b]));
   }
 
   TALUS_HD ContactSide other_side(int b) const {
@@ -105,28 +111,29 @@ class ContactPass : public Pass {
   Friction friction_;
 };
 
-using FrictionPolicy = std::variant<NoFriction, CoulombFriction>;
 using RecordPolicy = std::variant<NoWorkRecord, WorkRecord>;
 
-inline FrictionPolicy friction_policy(const Scene& scene) {
+/// Friction of contacts between polyhedra, and with walls.
+inline std::variant<NoFriction, PatchFriction> polyhedron_friction(const Scene& scene) {
   if (!scene.friction) return NoFriction{};
-  return CoulombFriction{scene.friction->tangential_stiffness_ratio};
+  return PatchFriction{scene.friction->tangential_stiffness_ratio};
 }
 inline RecordPolicy record_policy(const Scene& scene) {
   if (!scene.energy_ledger) return NoWorkRecord{};
   return WorkRecord{};
 }
 
-/// The choice of kernel, made once. `make_geometry(law)` gives the contact geometry for each alternative of `law`.
-template <class Law, class MakeGeometry>
+/// The choice of kernel, made once: scene, law and friction hold the alternatives. `make_geometry(law)` gives the
+/// contact geometry for each alternative of `law`.
+template <class Law, class Friction, class MakeGeometry>
 std::unique_ptr<Pass> make_contact_pass(std::string name, ContactKind kind, const Scene& scene, const Law& law,
-                                        const MakeGeometry& make_geometry) {
+                                        const Friction& friction_policy, const MakeGeometry& make_geometry) {
   const auto make = [&](const auto& chosen, auto friction, auto record) -> std::unique_ptr<Pass> {
     const auto geometry = make_geometry(chosen);
     return std::make_unique<ContactPass<std::decay_t<decltype(geometry)>, decltype(friction), decltype(record)>>(
         std::move(name), kind, geometry, friction);
   };
-  return std::visit(make, law, friction_policy(scene), record_policy(scene));
+  return std::visit(make, law, friction_policy, record_policy(scene));
 }
 
 }  // namespace dem_gpu

@@ -6,7 +6,8 @@
 #include "dem_gpu/bodies/body_columns.h"
 #include "dem_gpu/contacts/contact_columns.h"
 #include "dem_gpu/contacts/elastic_contact.h"
-#include "dem_gpu/contacts/restitution_damping.h"
+#include "dem_gpu/contacts/friction/friction_contact.h"
+#include "dem_gpu/contacts/normal_damping.h"
 #include "dem_gpu/narrow_phase/part_frame.h"
 #include "dem_gpu/walls/wall_columns.h"
 
@@ -36,13 +37,14 @@ struct ContactSide {
 
 TALUS_HD inline ContactSide body_side(const BodyView& bodies, int body) {
   const Vec3 inertia = bodies.inertia[body];
+  const Real movable = bodies.is_fixed(body) ? 0 : 1;
   return {bodies.position[body],
           bodies.predicted_velocity[body],
           bodies.predicted_angular_velocity[body],
           bodies.mean_velocity[body],
           bodies.mean_angular_velocity[body],
-          1 / bodies.mass[body],
-          {1 / inertia.x, 1 / inertia.y, 1 / inertia.z},
+          movable / bodies.mass[body],
+          {movable / inertia.x, movable / inertia.y, movable / inertia.z},
           rotation_matrix(bodies.orientation[body])};
 }
 
@@ -57,20 +59,6 @@ TALUS_HD inline ContactSide wall_side(const WallRecord& wall) {
           {}};
 }
 
-/// Damping and friction of a pair of materials.
-struct PairProperties {
-  DampingRatios damping;
-  Real friction_coefficient = 0;
-  Real effective_modulus = 0;  // Hertz E* [Pa]
-};
-
-struct NoFriction {
-  static constexpr bool kEnabled = false;
-};
-struct CoulombFriction {
-  static constexpr bool kEnabled = true;
-  Real tangential_stiffness_ratio;  // [-]
-};
 struct NoWorkRecord {
   static constexpr bool kEnabled = false;
 };
@@ -79,45 +67,8 @@ struct WorkRecord {
 };
 
 struct ContactForces {
-  Vec3 damping;                // on a [N]
-  Vec3 friction;               // on a [N]
-  Real tangential_energy = 0;  // [J]
-};
-
-/// Damping along the normal; the whole normal force never pulls.
-TALUS_HD inline Real normal_damping(const ElasticContact& elastic, const PairProperties& pair, Real effective_mass,
-                                    Real approach_speed) {
-  const Real force = norm(elastic.force);
-  const Real exponent = elastic.stiffness * elastic.depth / force;
-  const Real coefficient = 2 * pair.damping.at(exponent) * std::sqrt(effective_mass * elastic.stiffness);
-  return std::max(coefficient * approach_speed, -force);
-}
-
-/// Coulomb friction with a tangential spring. Cundall & Strack, Geotechnique 29 (1979) 47-65. The spring follows the
-/// contact plane as it turns.
-struct TangentialSpring {
-  Vec3 displacement;  // in: last step; out: this step [m]
-  Real stiffness;     // [N/m]
-  Real damping;       // [N s/m]
-
-  TALUS_HD Vec3 force(const Vec3& normal, const Vec3& mean_slip, const Vec3& predicted_slip, Real time_step,
-                      Real limit) {
-    const Real length = norm(displacement);
-    displacement -= dot(displacement, normal) * normal;
-    const Real turned = norm(displacement);
-    if (turned > 0) displacement *= length / turned;
-    displacement += time_step * mean_slip;
-    Vec3 trial = -stiffness * displacement - damping * predicted_slip;
-    const Real magnitude = norm(trial);
-    if (magnitude > limit) {
-      trial *= limit / magnitude;
-      // The spring gives way: what is left of it balances the limit.
-      displacement = stiffness > 0 ? (-1 / stiffness) * (trial + damping * predicted_slip) : Vec3{};
-      const Real left = stiffness * norm(displacement);
-      if (left > limit) displacement *= limit / left;
-    }
-    return trial;
-  }
+  Vec3 damping;             // on a [N]
+  FrictionForces friction;  // on a
 };
 
 /// Work of the step that ends now, by the trapezoidal rule over the mean velocities: the same quadrature as the
@@ -127,9 +78,9 @@ struct StepWork {
   Real by_wall = 0;                             // done by side b's own motion on a [J]
 };
 
-TALUS_HD inline StepWork step_work(const ContactView& contacts, int c, const ElasticContact& elastic,
-                                   const Vec3& torque_b, const ContactForces& forces, const ContactSide& a,
-                                   const ContactSide& b, Real time_step) {
+template <class Friction>
+TALUS_HD StepWork step_work(const ContactView& contacts, int c, const ElasticContact& elastic, const Vec3& torque_b,
+                            const ContactForces& forces, const ContactSide& a, const ContactSide& b, Real time_step) {
   const Real half = time_step / 2;
   StepWork work;
   const Vec3 force = contacts.last_elastic_force[c] + elastic.force;
@@ -140,10 +91,15 @@ TALUS_HD inline StepWork step_work(const ContactView& contacts, int c, const Ela
                  on_b;
   const Vec3 velocity_a = a.mean_velocity_at(elastic.point), velocity_b = b.mean_velocity_at(elastic.point);
   const Vec3 damping = contacts.last_damping_force[c] + forces.damping;
-  const Vec3 friction = contacts.last_friction_force[c] + forces.friction;
+  const Vec3 friction = contacts.last_friction_force[c] + forces.friction.force;
   work.damping = half * dot(damping, velocity_a - velocity_b);
   work.friction = half * dot(friction, velocity_a - velocity_b);
   work.by_wall = -on_b + half * dot(damping + friction, velocity_b);
+  if constexpr (Friction::kHasCouple) {
+    const Vec3 couple = contacts.last_friction_couple[c] + forces.friction.couple;
+    work.friction += half * dot(couple, a.mean_angular_velocity - b.mean_angular_velocity);
+    work.by_wall += half * dot(couple, b.mean_angular_velocity);
+  }
   return work;
 }
 
@@ -159,60 +115,85 @@ TALUS_HD inline void record_work(const ContactView& contacts, int c, const StepW
 }
 
 /// No force this step; the history ends.
-template <class Friction, class Record>
+template <class Damping, class Friction, class Record>
 TALUS_HD void end_contact(const ContactView& contacts, int c, const ContactSide& a, const ContactSide& b,
                           Real time_step) {
   if (contacts.depth[c] == 0) return;
   if constexpr (Record::kEnabled) {
     ElasticContact none;
     none.point = contacts.point[c];
-    const StepWork work = step_work(contacts, c, none, Vec3{}, ContactForces{}, a, b, time_step);
+    const StepWork work = step_work<Friction>(contacts, c, none, Vec3{}, ContactForces{}, a, b, time_step);
     record_work(contacts, c, work, 0, false, is_wall_kind(key_kind(contacts.key[c])));
     contacts.last_elastic_force[c] = contacts.last_elastic_torque_a[c] = contacts.last_elastic_torque_b[c] = Vec3{};
     contacts.last_damping_force[c] = contacts.last_friction_force[c] = Vec3{};
+    if constexpr (Friction::kHasCouple) contacts.last_friction_couple[c] = Vec3{};
   }
-  if constexpr (Friction::kEnabled) contacts.tangential_displacement[c] = Vec3{};
+  Damping::forget(contacts, c);
+  if constexpr (Friction::kEnabled) Friction::forget(contacts, c);
   contacts.force[c] = contacts.torque_a[c] = contacts.torque_b[c] = Vec3{};
   contacts.depth[c] = 0;
 }
 
+/// Friction of contact c from the sides' motion. Not part of respond, so that motion is the same with a record and
+/// without.
+template <class Friction>
+TALUS_HD TALUS_ONE_COPY FrictionForces friction_forces(const ContactView& contacts, int c, FrictionContact contact,
+                                                       const ContactSide& a, const ContactSide& b,
+                                                       const Friction& friction,
+                                                       const typename Friction::Patch& patch) {
+  const Vec3& point = contact.elastic.point;
+  contact.mean = {a.mean_velocity_at(point) - b.mean_velocity_at(point),
+                  a.mean_angular_velocity - b.mean_angular_velocity};
+  contact.predicted = {a.predicted_velocity_at(point) - b.predicted_velocity_at(point),
+                       a.predicted_angular_velocity - b.predicted_angular_velocity};
+  contact.mean_spin = Real(0.5) * (a.mean_angular_velocity + b.mean_angular_velocity);
+  return friction.apply(contacts, c, contact, patch);
+}
+
+/// Acceleration of approach, negative: centres that pass each other at a velocity part as they go [m/s2].
+TALUS_HD inline Real turning(const ElasticContact& elastic, const Vec3& velocity) {
+  const Real along = dot(velocity, elastic.normal);
+  return -elastic.curvature * (norm_squared(velocity) - along * along);
+}
+
 /// Completes a touching contact: damping, friction, forces on both sides, history, work.
-template <class Friction, class Record>
-TALUS_HD void respond(const ContactView& contacts, int c, const ElasticContact& elastic, const ContactSide& a,
-                      const ContactSide& b, const PairProperties& pair, const Friction& friction, Real time_step,
-                      Real diameter) {
+template <class Damping, class Friction, class Record>
+TALUS_HD void respond(const ContactView& contacts, int c, ElasticContact& elastic, const ContactSide& a,
+                      const ContactSide& b, const PairProperties& pair, const Friction& friction,
+                      const typename Friction::Patch& patch, Real time_step, Real diameter) {
   const Vec3 slip = a.predicted_velocity_at(elastic.point) - b.predicted_velocity_at(elastic.point);
-  const Real approach_speed = dot(slip, elastic.normal);
+  const Vec3 mean_slip = a.mean_velocity_at(elastic.point) - b.mean_velocity_at(elastic.point);
   const Real effective_mass = 1 / (a.inverse_effective_mass(elastic.point, elastic.normal) +
                                    b.inverse_effective_mass(elastic.point, elastic.normal));
   ContactForces forces;
-  const Real damping = normal_damping(elastic, pair, effective_mass, approach_speed);
+  const Real damping =
+      Damping::apply(contacts, c, elastic,
+                     NormalImpact{pair, effective_mass, dot(mean_slip, elastic.normal), dot(slip, elastic.normal),
+                                  turning(elastic, a.mean_velocity - b.mean_velocity), time_step});
   forces.damping = -damping * elastic.normal;
-  if constexpr (Friction::kEnabled) {
-    const Vec3 mean_slip = a.mean_velocity_at(elastic.point) - b.mean_velocity_at(elastic.point);
-    TangentialSpring spring{contacts.tangential_displacement[c],
-                            friction.tangential_stiffness_ratio * elastic.stiffness, 0};
-    spring.damping = 2 * pair.damping.ratio[0] * std::sqrt(effective_mass * spring.stiffness);
-    const Real limit = pair.friction_coefficient * (norm(elastic.force) + damping);
-    forces.friction = spring.force(elastic.normal, mean_slip - dot(mean_slip, elastic.normal) * elastic.normal,
-                                   slip - approach_speed * elastic.normal, time_step, limit);
-    forces.tangential_energy = Real(0.5) * spring.stiffness * norm_squared(spring.displacement);
-    contacts.tangential_displacement[c] = spring.displacement;
-  }
+  if constexpr (Friction::kEnabled)
+    forces.friction =
+        friction_forces(contacts, c, FrictionContact{elastic, pair, damping, effective_mass, diameter, time_step}, a, b,
+                        friction, patch);
   const Vec3 elastic_torque_b = cross(b.centre - a.centre, elastic.force) - elastic.torque_a;
   if constexpr (Record::kEnabled) {
-    const StepWork work = step_work(contacts, c, elastic, elastic_torque_b, forces, a, b, time_step);
-    record_work(contacts, c, work, forces.tangential_energy, true, is_wall_kind(key_kind(contacts.key[c])));
+    const StepWork work = step_work<Friction>(contacts, c, elastic, elastic_torque_b, forces, a, b, time_step);
+    record_work(contacts, c, work, forces.friction.energy, true, is_wall_kind(key_kind(contacts.key[c])));
     contacts.last_elastic_force[c] = elastic.force;
     contacts.last_elastic_torque_a[c] = elastic.torque_a;
     contacts.last_elastic_torque_b[c] = elastic_torque_b;
     contacts.last_damping_force[c] = forces.damping;
-    contacts.last_friction_force[c] = forces.friction;
+    contacts.last_friction_force[c] = forces.friction.force;
+    if constexpr (Friction::kHasCouple) contacts.last_friction_couple[c] = forces.friction.couple;
   }
-  const Vec3 at_point = forces.damping + forces.friction;
+  const Vec3 at_point = forces.damping + forces.friction.force;
   contacts.force[c] = elastic.force + at_point;
   contacts.torque_a[c] = elastic.torque_a + cross(elastic.point - a.centre, at_point);
   contacts.torque_b[c] = elastic_torque_b - cross(elastic.point - b.centre, at_point);
+  if constexpr (Friction::kHasCouple) {
+    contacts.torque_a[c] += forces.friction.couple;
+    contacts.torque_b[c] -= forces.friction.couple;
+  }
   contacts.point[c] = elastic.point;
   contacts.depth[c] = elastic.depth;
   contacts.peak_overlap[c] = std::max(contacts.peak_overlap[c], elastic.depth / diameter);

@@ -12,6 +12,8 @@ struct ElasticContact {
   Vec3 point;          // [m]
   Vec3 normal;         // contact normal, unit, from a to b
   Real stiffness = 0;  // tangent stiffness dF/d(depth) [N/m]
+  Real adhesion = 0;   // constant attraction included in `force` [N]
+  Real curvature = 0;  // of the normal's turn as the centres slide past each other: 1 / their distance [1/m]
   Real depth = 0;      // largest depth [m]
 };
 

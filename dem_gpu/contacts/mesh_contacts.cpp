@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dem_gpu/contacts/contact_kernel.h"
 #include "dem_gpu/contacts/contact_passes.h"
 #include "dem_gpu/contacts/sphere_geometry.h"
-#include "dem_gpu/contacts/wall_stiffness.h"
+#include "dem_gpu/contacts/wall_geometry.h"
 #include "dem_gpu/meshes/mesh_distance.h"
 #include "dem_gpu/meshes/mesh_integrals.h"
 
@@ -13,9 +12,11 @@ namespace {
 template <class Law>
 struct PolyhedronMeshGeometry {
   using Partner = WallPartner;
+  using Damping = PointDamping;
   Law law;
 
-  TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic) const {
+  template <class Patch>
+  TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic, Patch& patch) const {
     const int first = scene.contacts.facet_begin[c], last = scene.contacts.facet_begin[c + 1];
     if (first == last) return false;
     const WallRecord& wall = scene.walls[b];
@@ -24,7 +25,7 @@ struct PolyhedronMeshGeometry {
     const Vec3 origin = transpose_times(axes, pose.position - wall.point);
     const FrameChange to_mesh{transpose_times(axes, pose.rotation), {}, pose.scale};
     const ShapeRange& shape = scene.shapes.shapes[scene.bodies.shape[a]];
-    WallIntegrals integrals;
+    auto integrals = empty_wall_integrals<WallPatchSumsFor<Patch>>(law, pose.scale * shape.equivalent_diameter);
     for (int p = 0; p < shape.part_count; ++p) {
       const PartView part = part_view(scene.shapes, shape.first_part + p);
       const PlacedPart body(part, to_mesh);
@@ -34,7 +35,7 @@ struct PolyhedronMeshGeometry {
           scene.contacts.is_truncated[c] = 1;
     }
     integrals.turn(axes);
-    return integrals.to_contact(wall_stiffness(law), pose.position, elastic);
+    return wall_contact(law, integrals, pose.position, elastic, patch);
   }
 };
 
@@ -42,9 +43,11 @@ struct PolyhedronMeshGeometry {
 template <class Law>
 struct SphereMeshGeometry {
   using Partner = WallPartner;
+  using Damping = OrbitDamping<Law>;
   Law law;
 
-  TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic) const {
+  template <class Patch>
+  TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic, Patch& patch) const {
     const WallRecord& wall = scene.walls[b];
     const Vec3 centre = scene.bodies.position[a];
     const Vec3 x = rotate_back(wall.orientation, centre - wall.point);
@@ -53,8 +56,8 @@ struct SphereMeshGeometry {
     for (int k = scene.contacts.facet_begin[c]; k < scene.contacts.facet_begin[c + 1]; ++k)
       add_touch(scene.meshes, scene.contacts.facet[k], x, radius, touches);
     if (touches.count == 0) return false;
-    const Real modulus = scene.pair(scene.bodies.material[a], wall.material).effective_modulus;
-    return sum_touches(visible(touches), centre, radius, modulus, rotation_matrix(wall.orientation), elastic);
+    return sum_touches(visible(touches), centre, radius, scene.pair(scene.bodies.material[a], wall.material),
+                       rotation_matrix(wall.orientation), elastic, patch);
   }
 
   /// Outside the solid: what can be seen from the centre, so no back sides. Inside: the shallowest alone.
@@ -72,31 +75,37 @@ struct SphereMeshGeometry {
     return seen;
   }
 
-  TALUS_HD bool sum_touches(const MeshTouches& touches, const Vec3& centre, Real radius, Real modulus, const Mat3& axes,
-                            ElasticContact& elastic) const {
+  /// The normal is that of the repulsion.
+  template <class Patch>
+  TALUS_HD bool sum_touches(const MeshTouches& touches, const Vec3& centre, Real radius, const PairProperties& pair,
+                            const Mat3& axes, ElasticContact& elastic, Patch& patch) const {
     ElasticContact single[MeshTouches::kMost];
     Real share[MeshTouches::kMost];
     Real total = 0;
+    Vec3 pressed;
     for (int i = 0; i < touches.count; ++i) {
       const MeshTouch& touch = touches.touch[i];
       share[i] = 1;
       for (int k = 0; k < i; ++k)
         if (share[k] > 0) share[i] *= share_beside(touches.touch[k], touch);
       if (!(share[i] > 0)) continue;
-      if (!sphere_contact(law, centre, radius, {touch.distance, axes * touch.direction, radius}, modulus, single[i]))
-        continue;
-      const Real magnitude = share[i] * norm(single[i].force);
+      const SphereGap gap{touch.distance, axes * touch.direction, radius};
+      if (!sphere_contact(law, centre, radius, gap, pair, single[i], patch)) continue;
+      const Real magnitude = share[i] * (single[i].adhesion - dot(single[i].force, single[i].normal));
       elastic.force += share[i] * single[i].force;
       elastic.point += magnitude * (single[i].point - centre);
       elastic.depth = std::max(elastic.depth, single[i].depth);
+      pressed += magnitude * single[i].normal;
       total += magnitude;
     }
-    if (!(total > 0) || !set_normal(elastic)) return false;
+    if (!(norm(pressed) > 0)) return false;
+    elastic.normal = unit_or(pressed, {0, 0, 1});
     elastic.point = centre + elastic.point / total;
     for (int i = 0; i < touches.count; ++i) {
       if (!(share[i] > 0)) continue;
       const Real along = dot(single[i].normal, elastic.normal);
       elastic.stiffness += share[i] * along * along * single[i].stiffness;
+      elastic.adhesion += share[i] * along * single[i].adhesion;
     }
     return elastic.stiffness > 0;
   }
@@ -106,12 +115,13 @@ struct SphereMeshGeometry {
 
 std::unique_ptr<Pass> make_polyhedron_mesh_contacts_pass(const Scene& scene) {
   return make_contact_pass("polyhedron_mesh_contacts", ContactKind::polyhedron_mesh, scene, scene.polyhedral_law,
+                           polyhedron_friction(scene),
                            [](const auto& law) { return PolyhedronMeshGeometry<std::decay_t<decltype(law)>>{law}; });
 }
 
 std::unique_ptr<Pass> make_sphere_mesh_contacts_pass(const Scene& scene) {
-  return make_contact_pass("sphere_mesh_contacts", ContactKind::sphere_mesh, scene, scene.sphere_law,
-                           [](const auto& law) { return SphereMeshGeometry<std::decay_t<decltype(law)>>{law}; });
+  return make_sphere_pass("sphere_mesh_contacts", ContactKind::sphere_mesh, scene,
+                          [](const auto& law) { return SphereMeshGeometry<std::decay_t<decltype(law)>>{law}; });
 }
 
 }  // namespace dem_gpu

@@ -5,9 +5,10 @@
 namespace dem_gpu {
 
 std::unique_ptr<Pass> make_polyhedron_contacts_pass(const Scene& scene) {
-  return make_contact_pass(
-      "polyhedron_contacts", ContactKind::polyhedron_polyhedron, scene, scene.polyhedral_law,
-      [](const auto& law) { return PolyhedronGeometry<std::decay_t<decltype(law)>, BodyPartner>{law}; });
+  return make_contact_pass("polyhedron_contacts", ContactKind::polyhedron_polyhedron, scene, scene.polyhedral_law,
+                           polyhedron_friction(scene), [](const auto& law) {
+                             return PolyhedronGeometry<std::decay_t<decltype(law)>, BodyPartner>{law};
+                           });
 }
 
 }  // namespace dem_gpu

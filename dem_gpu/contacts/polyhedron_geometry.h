@@ -7,16 +7,31 @@
 
 namespace dem_gpu {
 
-template <class Law>
-struct IntegralsOf;
-template <>
-struct IntegralsOf<DepthPotential> {
-  using Type = DepthIntegrals;
-};
-template <>
-struct IntegralsOf<OverlapVolume> {
-  using Type = VolumeIntegrals;
-};
+/// A law's integrals before any overlap, with the sums that friction asks for. `diameter`: equivalent, of the smaller
+/// body [m].
+template <class Sums = NoPatchSums>
+TALUS_HD DepthIntegralsOf<LinearProfile, Sums> empty_integrals(const DepthPotential&, Real /*diameter*/,
+                                                               Real /*scale_a*/, Real /*scale_b*/) {
+  return {};
+}
+template <class Sums = NoPatchSums>
+TALUS_HD VolumeIntegralsOf<Sums> empty_integrals(const OverlapVolume&, Real /*diameter*/, Real /*scale_a*/,
+                                                 Real /*scale_b*/) {
+  return {};
+}
+template <class Sums = NoPatchSums>
+TALUS_HD DepthIntegralsOf<HardeningProfile, Sums> empty_integrals(const HardeningDepthPotential& law, Real diameter,
+                                                                  Real scale_a, Real scale_b) {
+  DepthIntegralsOf<HardeningProfile, Sums> integrals;
+  integrals.profile_a.rate = scale_a / (law.hardening * diameter);
+  integrals.profile_b.rate = scale_b / (law.hardening * diameter);
+  return integrals;
+}
+
+TALUS_HD inline Real smaller_diameter(const ShapeView& shapes, int shape_a, int shape_b, const Pose& a, const Pose& b) {
+  return std::min(a.scale * shapes.shapes[shape_a].equivalent_diameter,
+                  b.scale * shapes.shapes[shape_b].equivalent_diameter);
+}
 
 /// Sums a law's integrals over all pairs of parts of two polyhedral bodies. `separating`: the contact's cache, one
 /// entry per pair of parts. False if a polygon was truncated.
@@ -45,26 +60,33 @@ TALUS_HD bool integrate_bodies(const ShapeView& shapes, int shape_a, int shape_b
 template <class Law, class PartnerKind>
 struct PolyhedronGeometry {
   using Partner = PartnerKind;
+  using Damping = PointDamping;
   Law law;
 
-  TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic) const {
+  template <class Patch>
+  TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic, Patch& patch) const {
     const Pose pose_a = scene.pose(a);
-    typename IntegralsOf<Law>::Type integrals;
-    SeparatingPlane* separating = scene.contacts.separating + scene.contacts.cache_begin[c];
-    bool is_whole = true;
+    Pose pose_b;
+    int shape_b = 0;
     if constexpr (Partner::kIsWall) {
       const WallRecord& wall = scene.walls[b];
-      const Pose pose_b{rotation_matrix(wall.orientation), wall.point, 1};
-      is_whole =
-          integrate_bodies(scene.shapes, scene.bodies.shape[a], wall.shape, pose_a, pose_b, separating, integrals);
+      pose_b = {rotation_matrix(wall.orientation), wall.point, 1};
+      shape_b = wall.shape;
     } else {
       const Real reach = scene.bodies.bounding_radius[a] + scene.bodies.bounding_radius[b];
       if (norm_squared(scene.bodies.position[b] - pose_a.position) >= reach * reach) return false;
-      is_whole = integrate_bodies(scene.shapes, scene.bodies.shape[a], scene.bodies.shape[b], pose_a, scene.pose(b),
-                                  separating, integrals);
+      pose_b = scene.pose(b);
+      shape_b = scene.bodies.shape[b];
     }
+    const int shape_a = scene.bodies.shape[a];
+    auto integrals = empty_integrals<PatchSumsFor<Patch>>(
+        law, smaller_diameter(scene.shapes, shape_a, shape_b, pose_a, pose_b), pose_a.scale, pose_b.scale);
+    const bool is_whole = integrate_bodies(scene.shapes, shape_a, shape_b, pose_a, pose_b,
+                                           scene.contacts.separating + scene.contacts.cache_begin[c], integrals);
     if (!is_whole) scene.contacts.is_truncated[c] = 1;
-    return integrals.to_contact(law, pose_a, elastic);
+    if (!integrals.to_contact(law, pose_a, elastic)) return false;
+    if constexpr (integrals.kHasPatch) patch = integrals.to_patch(law, pose_a, elastic);
+    return true;
   }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dem_gpu/contacts/restitution_damping.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace dem_gpu {
@@ -26,19 +27,33 @@ Real impact_restitution(Real exponent, Real damping_ratio) {
   return 0;
 }
 
+namespace {
+
+/// Damping ratio in 0 .. high, by bisection.
+Real solved_ratio(Real exponent, Real restitution, Real high) {
+  Real low = 0;
+  for (int bisection = 0; bisection < 30; ++bisection) {
+    const Real middle = (low + high) / 2;
+    (impact_restitution(exponent, middle) > restitution ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+}  // namespace
+
 DampingRatios damping_ratios(Real restitution) {
   DampingRatios ratios;
   if (restitution >= 1) return ratios;
   for (int i = 0; i < 5; ++i) {
-    const Real exponent = 1 + Real(0.5) * i;
-    Real low = 0, high = 3;
-    for (int bisection = 0; bisection < 30; ++bisection) {
-      const Real middle = (low + high) / 2;
-      (impact_restitution(exponent, middle) > restitution ? low : high) = middle;
-    }
-    ratios.ratio[i] = (low + high) / 2;
+    constexpr Real stiffest = 3;  // that a dashpot evaluated once a step stands
+    ratios.ratio[i] = solved_ratio(1 + Real(0.5) * i, restitution, stiffest);
   }
   return ratios;
+}
+
+Real damping_ratio(Real exponent, Real restitution) {
+  constexpr Real beyond_the_least = 100;
+  return restitution >= 1 ? 0 : solved_ratio(exponent, std::max(restitution, kLeastRestitution), beyond_the_least);
 }
 
 }  // namespace dem_gpu

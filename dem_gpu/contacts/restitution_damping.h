@@ -23,6 +23,11 @@ struct DampingRatios {
 /// (0, 1].
 DampingRatios damping_ratios(Real restitution);
 
+/// The ratio for F ~ depth^exponent alone. `restitution` in [0, 1]; below kLeastRestitution, that is meant.
+Real damping_ratio(Real exponent, Real restitution);
+/// A dashpot never takes all: within this of zero.
+inline constexpr Real kLeastRestitution = Real(5e-4);
+
 /// Restitution of a normal impact with F ~ depth^n at a given damping ratio.
 Real impact_restitution(Real exponent, Real damping_ratio);
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "dem_gpu/contacts/contact_kernel.h"
+#include "dem_gpu/contacts/friction/rolling_friction.h"
+#include "dem_gpu/contacts/laws/adhesive.h"
 #include "dem_gpu/narrow_phase/closest_point.h"
 #include "dem_gpu/walls/wall_surface.h"
 
@@ -14,18 +16,29 @@ struct SphereGap {
   Real effective_radius = 0;  // [m]
 };
 
+TALUS_HD inline void fill_patch(const SphereGap&, NoPatch&) {}
+TALUS_HD inline void fill_patch(const SphereGap& gap, SpherePatch& patch) {
+  patch.effective_radius = gap.effective_radius;
+}
+
 /// Elastic contact of a sphere under a sphere law; false without overlap.
-template <class Law>
+template <class Law, class Patch>
 TALUS_HD bool sphere_contact(const Law& law, const Vec3& centre, Real radius, const SphereGap& gap,
-                             Real effective_modulus, ElasticContact& elastic) {
+                             const PairProperties& pair, ElasticContact& elastic, Patch& patch) {
   const Real overlap = radius - gap.distance;
   if (!(overlap > 0)) return false;
   elastic.normal = gap.direction;
   elastic.depth = overlap;
-  elastic.stiffness = law.tangent_stiffness(overlap, gap.effective_radius, effective_modulus);
-  elastic.force = -law.normal_force(overlap, gap.effective_radius, effective_modulus) * gap.direction;
+  elastic.stiffness = law.tangent_stiffness(overlap, gap.effective_radius, pair.effective_modulus);
+  Real force = law.normal_force(overlap, gap.effective_radius, pair.effective_modulus);
+  if constexpr (Law::kIsAdhesive) {
+    elastic.adhesion = Law::attraction(pair.adhesion, gap.effective_radius);
+    force -= elastic.adhesion;
+  }
+  elastic.force = -force * gap.direction;
   elastic.point = centre + (gap.distance + overlap / 2) * gap.direction;
   elastic.torque_a = Vec3{};
+  fill_patch(gap, patch);
   return true;
 }
 
@@ -44,6 +57,34 @@ TALUS_HD inline PartDistance distance_to_body(const ShapeView& shapes, int shape
     if (distance.distance < nearest.distance) nearest = distance;
   }
   return {pose.scale * nearest.distance, pose.rotation * nearest.outward};
+}
+
+template <class Law>
+std::variant<NoFriction, SphereFriction<Law>, RollingFriction<Law>> sphere_friction(const Scene& scene) {
+  if (!scene.friction) return NoFriction{};
+  if (has_rolling_friction(scene)) return RollingFriction<Law>{};
+  return SphereFriction<Law>{};
+}
+
+inline std::variant<LinearSpring, Hertz, Adhesive<LinearSpring>, Adhesive<Hertz>> sphere_law(const Scene& scene) {
+  const auto* linear = std::get_if<LinearSpring>(&scene.sphere_law);
+  if (!has_adhesion(scene)) {
+    if (linear) return *linear;
+    return Hertz{};
+  }
+  if (linear) return Adhesive<LinearSpring>{*linear};
+  return Adhesive<Hertz>{};
+}
+
+/// The choice of kernel for a kind of sphere contact, made once. `make_geometry(law)` gives its geometry.
+template <class MakeGeometry>
+std::unique_ptr<Pass> make_sphere_pass(const std::string& name, ContactKind kind, const Scene& scene,
+                                       const MakeGeometry& make_geometry) {
+  const auto make = [&](const auto& law) {
+    using Law = std::decay_t<decltype(law)>;
+    return make_contact_pass(name, kind, scene, std::variant<Law>(law), sphere_friction<Law>(scene), make_geometry);
+  };
+  return std::visit(make, sphere_law(scene));
 }
 
 }  // namespace dem_gpu

@@ -10,40 +10,42 @@ namespace {
 template <class Law, class PartnerKind>
 struct SpherePolyhedronGeometry {
   using Partner = PartnerKind;
+  using Damping = OrbitDamping<Law>;
   Law law;
 
-  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic) const {
+  template <class Patch>
+  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic, Patch& patch) const {
     const Vec3 centre = scene.bodies.position[a];
     const Real radius = scene.bodies.bounding_radius[a];
     PartDistance nearest;
-    Real modulus = 0;
+    const PairProperties* pair = nullptr;
     if constexpr (Partner::kIsWall) {
       const WallRecord& wall = scene.walls[b];
       nearest = distance_to_body(scene.shapes, wall.shape, {rotation_matrix(wall.orientation), wall.point, 1}, centre,
                                  radius);
-      modulus = scene.pair(scene.bodies.material[a], wall.material).effective_modulus;
+      pair = &scene.pair(scene.bodies.material[a], wall.material);
     } else {
       const Real reach = radius + scene.bodies.bounding_radius[b];
       if (norm_squared(scene.bodies.position[b] - centre) >= reach * reach) return false;
       nearest = distance_to_body(scene.shapes, scene.bodies.shape[b], scene.pose(b), centre, radius);
-      modulus = scene.pair(scene.bodies.material[a], scene.bodies.material[b]).effective_modulus;
+      pair = &scene.pair(scene.bodies.material[a], scene.bodies.material[b]);
     }
-    return sphere_contact(law, centre, radius, {nearest.distance, -nearest.outward, radius}, modulus, elastic);
+    return sphere_contact(law, centre, radius, {nearest.distance, -nearest.outward, radius}, *pair, elastic, patch);
   }
 };
 
 }  // namespace
 
 std::unique_ptr<Pass> make_sphere_polyhedron_contacts_pass(const Scene& scene) {
-  return make_contact_pass(
-      "sphere_polyhedron_contacts", ContactKind::sphere_polyhedron, scene, scene.sphere_law,
-      [](const auto& law) { return SpherePolyhedronGeometry<std::decay_t<decltype(law)>, BodyPartner>{law}; });
+  return make_sphere_pass("sphere_polyhedron_contacts", ContactKind::sphere_polyhedron, scene, [](const auto& law) {
+    return SpherePolyhedronGeometry<std::decay_t<decltype(law)>, BodyPartner>{law};
+  });
 }
 
 std::unique_ptr<Pass> make_sphere_object_contacts_pass(const Scene& scene) {
-  return make_contact_pass(
-      "sphere_object_contacts", ContactKind::sphere_object, scene, scene.sphere_law,
-      [](const auto& law) { return SpherePolyhedronGeometry<std::decay_t<decltype(law)>, WallPartner>{law}; });
+  return make_sphere_pass("sphere_object_contacts", ContactKind::sphere_object, scene, [](const auto& law) {
+    return SpherePolyhedronGeometry<std::decay_t<decltype(law)>, WallPartner>{law};
+  });
 }
 
 }  // namespace dem_gpu

@@ -7,3 +7,7 @@
 #else
 #define TALUS_HD
 #endif
+
+/// One compiled copy: inlined into kernels of different templates, the same source may contract different products and
+/// sums, and round differently.
+#define TALUS_ONE_COPY __attribute__((noinline))

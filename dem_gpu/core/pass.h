@@ -13,6 +13,8 @@ class Pass {
  public:
   virtual ~Pass() = default;
   virtual std::string name() const = 0;
+  /// Does it find forces from a given state, so that it also runs once at time 0? Else it carries the state on in time.
+  virtual bool finds_forces() const { return true; }
   virtual void run(const Model& model, State& state) = 0;
 };
 

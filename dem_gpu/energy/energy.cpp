@@ -77,11 +77,10 @@ void close_accounts_of_absent_walls(const Model& model, State& state) {
   }
 }
 
-EnergyLedger make_ledger(const Model& model, State& state) {
+EnergyLedger make_ledger(const Model& model, const State& state) {
   EnergyLedger ledger;
   if (!model.features.has_ledger) return ledger;
-  collect_accounts(model, state);
-  const Accounts& accounts = state.accounts;
+  const Accounts accounts = accounts_so_far(model, state);
   const BodyEnergy energy = body_energy(model, state);
   ledger.kinetic = energy.kinetic;
   ledger.gravitational = energy.gravitational - accounts.initial_gravitational;
@@ -89,7 +88,7 @@ EnergyLedger make_ledger(const Model& model, State& state) {
   ledger.elastic_tangential = sum(to_host(state.contacts.tangential_energy));
   ledger.wall_work = sum(accounts.wall_work);
   ledger.removed = accounts.removed_energy;
-  ledger.initial = accounts.initial_kinetic;
+  ledger.initial = accounts.initial_kinetic + accounts.initial_elastic;
   for (std::size_t k = 0; k < model.classes.size(); ++k)
     ledger.dissipation.push_back({model.classes[k], accounts.loss_normal[k], accounts.loss_shear[k]});
   // What bodies lost by leaving is not what gravity gave them: wherever the origin lies, it counts down to where they
@@ -109,21 +108,19 @@ double EnergyLedger::imbalance() const {
   return initial + wall_work - (kinetic + gravitational + elastic_normal + elastic_tangential + removed + dissipated());
 }
 
-void collect_accounts(const Model& model, State& state) {
-  ContactColumns& contacts = state.contacts;
+Accounts accounts_so_far(const Model& model, const State& state) {
+  const ContactColumns& contacts = state.contacts;
   const auto keys = to_host(contacts.key);
   const auto class_of = [&](std::size_t c) {
     return is_wall_kind(key_kind(keys[c])) ? model.wall_class[key_body_b(keys[c])] : 0;
   };
-  Accounts& accounts = state.accounts;
+  Accounts accounts = state.accounts;
   const auto overlap = to_host(contacts.peak_overlap);
   const auto rate = to_host(contacts.peak_rate);
   for (std::size_t c = 0; c < overlap.size(); ++c) {
     accounts.largest_overlap = std::max(accounts.largest_overlap, static_cast<double>(overlap[c]));
     accounts.largest_rate = std::max(accounts.largest_rate, static_cast<double>(rate[c]));
   }
-  fill(contacts.peak_overlap, Real(0));
-  fill(contacts.peak_rate, Real(0));
   if (model.features.has_ledger) {
     const auto normal = to_host(contacts.loss_normal);
     const auto shear = to_host(contacts.loss_shear);
@@ -133,8 +130,6 @@ void collect_accounts(const Model& model, State& state) {
       accounts.loss_shear[class_of(c)] += shear[c];
       if (is_wall_kind(key_kind(keys[c]))) accounts.wall_work[key_body_b(keys[c])] += work[c];
     }
-    for (DeviceVector<Real>* column : {&contacts.loss_normal, &contacts.loss_shear, &contacts.wall_work})
-      fill(*column, Real(0));
   }
   if (model.features.has_walls) {
     const auto impulse = to_host(contacts.wall_impulse);
@@ -144,8 +139,17 @@ void collect_accounts(const Model& model, State& state) {
       accounts.wall_impulse[key_body_b(keys[c])] += impulse[c];
       accounts.wall_angular_impulse[key_body_b(keys[c])] += angular[c];
     }
-    for (DeviceVector<Vec3>* column : {&contacts.wall_impulse, &contacts.wall_angular_impulse}) fill(*column, Vec3{});
   }
+  return accounts;
+}
+
+void collect_accounts(const Model& model, State& state) {
+  state.accounts = accounts_so_far(model, state);
+  ContactColumns& contacts = state.contacts;
+  for (DeviceVector<Real>* column :
+       {&contacts.peak_overlap, &contacts.peak_rate, &contacts.loss_normal, &contacts.loss_shear, &contacts.wall_work})
+    fill(*column, Real(0));
+  for (DeviceVector<Vec3>* column : {&contacts.wall_impulse, &contacts.wall_angular_impulse}) fill(*column, Vec3{});
 }
 
 }  // namespace dem_gpu

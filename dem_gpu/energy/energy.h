@@ -21,6 +21,7 @@ void remove_bodies(const Model& model, State& state, const std::vector<int>& is_
 /// Elastic energy in contacts with walls that have just gone leaves with them, as work they took back.
 void close_accounts_of_absent_walls(const Model& model, State& state);
 
-EnergyLedger make_ledger(const Model& model, State& state);
+/// Reads only: however often it is asked for, the run goes on the same to the last bit.
+EnergyLedger make_ledger(const Model& model, const State& state);
 
 }  // namespace dem_gpu

@@ -14,7 +14,7 @@ namespace dem_gpu {
 namespace {
 
 constexpr const char* kKind = "talus-checkpoint";
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 
 /// A whole checkpoint that does not fit the simulation: no reason to look at an earlier one.
 class ForeignCheckpoint : public catalog::InputError {
@@ -49,7 +49,10 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("contacts/separating", c.separating);
   visit("contacts/facet_begin", c.facet_begin);
   visit("contacts/facet", c.facet);
+  visit("contacts/owed_kick", c.owed_kick);
   visit("contacts/tangential_displacement", c.tangential_displacement);
+  visit("contacts/turning_displacement", c.turning_displacement);
+  visit("contacts/spring_normal", c.spring_normal);
   visit("contacts/elastic_work", c.elastic_work);
   visit("contacts/tangential_energy", c.tangential_energy);
   visit("contacts/loss_normal", c.loss_normal);
@@ -60,6 +63,7 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("contacts/last_elastic_torque_b", c.last_elastic_torque_b);
   visit("contacts/last_damping_force", c.last_damping_force);
   visit("contacts/last_friction_force", c.last_friction_force);
+  visit("contacts/last_friction_couple", c.last_friction_couple);
   visit("contacts/wall_impulse", c.wall_impulse);
   visit("contacts/wall_angular_impulse", c.wall_angular_impulse);
   visit("incident/first", state.incident_first);
@@ -125,6 +129,7 @@ std::int64_t fingerprint(const Model& model) {
   mix_all(to_host(model.bodies.bounding_radius));
   mix_all(to_host(model.bodies.shape));
   mix_all(to_host(model.bodies.material));
+  for (const Body& body : model.scene.bodies) mix(&body.is_fixed, sizeof(bool));
   mix_all(to_host(model.shapes.vertices));
   mix_all(to_host(model.shapes.depth_planes));
   mix_all(to_host(model.meshes.planes));
@@ -145,8 +150,8 @@ std::int64_t fingerprint(const Model& model) {
   }
   if (model.scene.outflow) mix(&*model.scene.outflow, sizeof(Outflow));
   const ContactFeatures& features = model.features;
-  for (const bool has :
-       {features.has_friction, features.has_ledger, features.has_walls, features.has_polyhedra, features.has_meshes})
+  for (const bool has : {features.has_friction, features.has_ledger, features.has_walls, features.has_polyhedra,
+                         features.has_friction_couples, features.has_spheres, features.has_meshes})
     mix(&has, sizeof(has));
   if (model.scene.friction) mix(&*model.scene.friction, sizeof(Friction));
   const std::size_t law = model.scene.polyhedral_law.index();
@@ -155,9 +160,14 @@ std::int64_t fingerprint(const Model& model) {
   for (const PairProperties& pair : pairs) {
     mix(pair.damping.ratio, sizeof(pair.damping.ratio));
     mix(&pair.friction_coefficient, sizeof(Real));
-    mix(&pair.effective_modulus, sizeof(Real));
+    for (const Real value : {pair.effective_modulus, pair.sphere_damping, pair.tangential_stiffness_ratio,
+                             pair.rolling_friction, pair.adhesion})
+      mix(&value, sizeof(value));
   }
   std::visit([&](const auto& chosen) { mix(&chosen.stiffness, sizeof(Real)); }, model.scene.polyhedral_law);
+  if (const DepthPotential* depth = depth_potential(model.scene.polyhedral_law)) mix(&depth->depth_cap, sizeof(Real));
+  if (const auto* hardening = std::get_if<HardeningDepthPotential>(&model.scene.polyhedral_law))
+    mix(&hardening->hardening, sizeof(Real));
   const std::size_t sphere_law = model.scene.sphere_law.index();
   mix(&sphere_law, sizeof(sphere_law));
   if (const auto* linear = std::get_if<LinearSpring>(&model.scene.sphere_law)) mix(&linear->stiffness, sizeof(Real));
@@ -198,6 +208,7 @@ void read_one(const std::filesystem::path& path, const Model& model, State& stat
   Accounts& accounts = state.accounts;
   accounts.wall_load_time = file.double_attribute("wall_load_time");
   accounts.initial_kinetic = file.double_attribute("initial_kinetic");
+  accounts.initial_elastic = file.double_attribute("initial_elastic");
   accounts.initial_gravitational = file.double_attribute("initial_gravitational");
   accounts.removed_energy = file.double_attribute("removed_energy");
   accounts.removed_gravitational = file.double_attribute("removed_gravitational");
@@ -221,6 +232,7 @@ void write_checkpoint_file(const std::filesystem::path& run_folder, const Model&
     const Accounts& accounts = state.accounts;
     file.write_attribute("wall_load_time", accounts.wall_load_time);
     file.write_attribute("initial_kinetic", accounts.initial_kinetic);
+    file.write_attribute("initial_elastic", accounts.initial_elastic);
     file.write_attribute("initial_gravitational", accounts.initial_gravitational);
     file.write_attribute("removed_energy", accounts.removed_energy);
     file.write_attribute("removed_gravitational", accounts.removed_gravitational);

@@ -13,7 +13,7 @@ struct AdvanceBody {
   Real time_step;  // [s]
 
   TALUS_HD void operator()(int i) const {
-    if (!bodies.active[i]) return;
+    if (!bodies.is_moving(i)) return;
     const Real half = time_step / 2;
     const Vec3 kick = (half / bodies.mass[i]) * bodies.force[i];
     const Vec3 velocity = bodies.velocity[i] + kick;
@@ -37,12 +37,12 @@ struct AdvanceBody {
 
   TALUS_HD static Vec3 over(const Vec3& a, const Vec3& b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
 
-  /// Infinite for a body that is lost: not finite, or faster than half its radius a step.
+  /// Infinite for a body that is lost: not finite, or so fast that it could pass through another.
   TALUS_HD Real displacement(int i, const Vec3& velocity) const {
     const Real distance = norm(bodies.position[i] - bodies.listed_position[i]);
-    const Real travel = time_step * norm(velocity);
-    const bool is_sound = distance < Real(1e300) && travel < bodies.bounding_radius[i] / 2 &&
-                          norm_squared(bodies.angular_velocity[i]) < Real(1e300);
+    const Real spin = norm(bodies.angular_velocity[i]);
+    const Real travel = time_step * (norm(velocity) + spin * bodies.turning_radius(i));
+    const bool is_sound = distance < Real(1e300) && spin < Real(1e150) && travel < kTravelShare * bodies.least_width[i];
     return is_sound ? distance : Real(HUGE_VAL);
   }
 };
@@ -50,6 +50,7 @@ struct AdvanceBody {
 class AdvanceBodies : public Pass {
  public:
   std::string name() const override { return "advance_bodies"; }
+  bool finds_forces() const override { return false; }
   void run(const Model& model, State& state) override {
     const BodyView bodies = view(model.bodies, state.bodies);
     parallel_for(0, bodies.count, AdvanceBody{bodies, model.time_step});
@@ -60,6 +61,7 @@ class AdvanceBodies : public Pass {
 class AdvanceWalls : public Pass {
  public:
   std::string name() const override { return "advance_walls"; }
+  bool finds_forces() const override { return false; }
   void run(const Model& model, State& state) override {
     if (!state.walls.move_to(state.time(model))) return;
     close_accounts_of_absent_walls(model, state);

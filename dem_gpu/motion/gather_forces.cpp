@@ -16,7 +16,7 @@ struct GatherForces {
   Real time_step;  // [s]
 
   TALUS_HD void operator()(int i) const {
-    if (!bodies.active[i]) return;
+    if (!bodies.is_moving(i)) return;
     Vec3 force = bodies.mass[i] * gravity, torque;
     for (int k = incident_first[i]; k < incident_first[i + 1]; ++k) {
       const int entry = static_cast<int>(incident[k] & 0xffffffff);

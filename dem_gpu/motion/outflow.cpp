@@ -13,13 +13,14 @@ struct MarkLeaving {
   int* leaving;
 
   TALUS_HD void operator()(int i) const {
-    leaving[i] = bodies.active[i] && dot(bodies.position[i], outflow.direction) < outflow.height;
+    leaving[i] = bodies.is_moving(i) && dot(bodies.position[i], outflow.direction) < outflow.height;
   }
 };
 
 class OutflowPass : public Pass {
  public:
   std::string name() const override { return "outflow"; }
+  bool finds_forces() const override { return false; }
   void run(const Model& model, State& state) override {
     const BodyView bodies = view(model.bodies, state.bodies);
     leaving_.resize(static_cast<std::size_t>(bodies.count));

@@ -30,6 +30,15 @@ TALUS_HD inline FrameChange frame_change(const Pose& a, const Pose& b) {
           b.scale / a.scale};
 }
 
+/// A body's depth field in one part: the least of the depths below planes and of the terms' greatest depths.
+struct DepthField {
+  const HalfSpace* planes;
+  int plane_count;
+  const DepthTerm* terms;
+  int term_count;
+  const HalfSpace* term_planes;
+};
+
 /// One convex part with pointers into the shape columns.
 struct PartView {
   const PartRange& range;
@@ -37,8 +46,7 @@ struct PartView {
   const HalfSpace* planes;
   const FaceCorners* faces;
   const std::uint8_t* corners;
-  const HalfSpace* depth_planes;
-  int depth_plane_count;
+  DepthField depth;
 };
 
 TALUS_HD inline PartView part_view(const ShapeView& shapes, int part) {
@@ -48,8 +56,8 @@ TALUS_HD inline PartView part_view(const ShapeView& shapes, int part) {
           shapes.planes + range.first_face,
           shapes.faces + range.first_face,
           shapes.corners,
-          shapes.depth_planes + range.first_depth_plane,
-          range.depth_plane_count};
+          {shapes.depth_planes + range.first_depth_plane, range.depth_plane_count,
+           shapes.depth_terms + range.first_depth_term, range.depth_term_count, shapes.term_planes}};
 }
 
 }  // namespace dem_gpu

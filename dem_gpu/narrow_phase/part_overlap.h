@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "dem_gpu/narrow_phase/near_depth.h"
 #include "dem_gpu/narrow_phase/polygon.h"
 #include "dem_gpu/narrow_phase/separating_plane.h"
 
@@ -73,67 +74,12 @@ TALUS_HD bool visit_surface_inside(const PartView& surface, int face_count, cons
   return true;
 }
 
-/// Depth planes of a solid that can be the least somewhere in its overlap with the hull of `vertices`: a plane is out
-/// if all vertices lie deeper below it than the deepest lies below another.
-struct NearDepthPlanes {
-  static constexpr int kLargest = 128;
-  ScratchArray<HalfSpace, kLargest> plane;
-  int count;
-  bool is_truncated;
-};
-
-/// Depths of the shallowest and deepest vertex below a plane.
-struct DepthRange {
-  Real shallowest, deepest;
-};
-
-TALUS_HD inline DepthRange depth_range(const HalfSpace& plane, const PartVertices& vertices) {
-  Lanes lowest = vertices.height_over(plane, 0), highest = lowest;
-  for (int first = kLanes; first < vertices.padded_count; first += kLanes) {
-    const Lanes height = vertices.height_over(plane, first);
-    lowest = least(height, lowest);
-    highest = greatest(height, highest);
-  }
-  return {-greatest_lane(highest), -least_lane(lowest)};
-}
-
-/// `centre`, `radius`: bounding sphere of the vertices, which settles the planes on the solid's far side.
-TALUS_HD inline void find_near_depth_planes(const PartView& solid, const PartVertices& vertices, const Vec3& centre,
-                                            Real radius, NearDepthPlanes& near) {
-  ScratchArray<Real, NearDepthPlanes::kLargest> shallowest;
-  ScratchArray<std::int16_t, NearDepthPlanes::kLargest> candidate;
-  near.count = 0;
-  near.is_truncated = false;
-  int nearest = 0;
-  Real nearest_depth = std::numeric_limits<Real>::max();
-  for (int i = 0; i < solid.depth_plane_count; ++i) {
-    const Real depth = depth_below(solid.depth_planes[i], centre);
-    if (depth < nearest_depth) nearest_depth = depth, nearest = i;
-  }
-  Real bound = depth_range(solid.depth_planes[nearest], vertices).deepest;
-  int candidate_count = 0;
-  for (int i = 0; i < solid.depth_plane_count; ++i) {
-    const HalfSpace plane = solid.depth_planes[i];
-    if (depth_below(plane, centre) - radius > bound) continue;
-    const DepthRange range = depth_range(plane, vertices);
-    if (range.deepest < bound) bound = range.deepest;
-    if (range.shallowest > bound) continue;
-    if (candidate_count == NearDepthPlanes::kLargest) {
-      near.is_truncated = true;
-      return;
-    }
-    shallowest[candidate_count] = range.shallowest;
-    candidate[candidate_count++] = static_cast<std::int16_t>(i);
-  }
-  for (int k = 0; k < candidate_count; ++k)
-    if (shallowest[k] <= bound) near.plane[near.count++] = solid.depth_planes[candidate[k]];
-}
-
 enum class OverlapStatus : std::uint8_t { separated, overlapping, polygon_truncated };
 
 /// Sums `Integrals` over the overlap of part a of one body and part b of another. `b_to_a` and `a_to_b` are inverse
 /// frame changes; `separating` is the pair's cache. `Integrals` provides:
-///   kNeedsDepthPlanes                           whether depth fields are integrated
+///   kNeedsDepthPlanes                           whether depth fields are integrated; then also
+///   is_truncated                                whether a piece of a polygon did not fit
 ///   kNeedsInnerFaces                            whether cut faces are visited too
 ///   add_surface_b(polygon, plane_b, is_outer, part_a, b_to_a)   a piece of b's surface inside a, polygon in a's frame
 ///   add_surface_a(polygon, plane_a, is_outer, part_b, b_to_a)   a piece of a's surface inside b, polygon in b's frame
@@ -162,15 +108,17 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
   }
 
   PartView solid_a = a, solid_b = b;
-  NearDepthPlanes near_a, near_b;
+  NearDepth near_a, near_b;
   if constexpr (Integrals::kNeedsDepthPlanes) {
-    find_near_depth_planes(a, vertices_b, b_to_a.point(b.range.centre), b_to_a.scale * b.range.radius, near_a);
-    find_near_depth_planes(b, vertices_a, a_to_b.point(a.range.centre), a_to_b.scale * a.range.radius, near_b);
+    find_near_depth(a.depth, vertices_b, b_to_a.point(b.range.centre), b_to_a.scale * b.range.radius, near_a);
+    find_near_depth(b.depth, vertices_a, a_to_b.point(a.range.centre), a_to_b.scale * a.range.radius, near_b);
     if (near_a.is_truncated || near_b.is_truncated) return OverlapStatus::polygon_truncated;
-    solid_a.depth_planes = near_a.plane.data();
-    solid_a.depth_plane_count = near_a.count;
-    solid_b.depth_planes = near_b.plane.data();
-    solid_b.depth_plane_count = near_b.count;
+    solid_a.depth.planes = near_a.plane.data();
+    solid_a.depth.plane_count = near_a.plane_count;
+    solid_a.depth.term_count = near_a.term_count;
+    solid_b.depth.planes = near_b.plane.data();
+    solid_b.depth.plane_count = near_b.plane_count;
+    solid_b.depth.term_count = near_b.term_count;
   }
   const int faces_b = Integrals::kNeedsInnerFaces ? b.range.face_count : b.range.outer_face_count;
   const int faces_a = Integrals::kNeedsInnerFaces ? a.range.face_count : a.range.outer_face_count;
@@ -182,6 +130,8 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
       a, faces_a, b, vertices_a, sides_a, {sides_a, tolerance_b, false}, [&](Polygon& polygon, int face) {
         integrals.add_surface_a(polygon, a.planes[face], face < a.range.outer_face_count, solid_b, b_to_a);
       });
+  if constexpr (Integrals::kNeedsDepthPlanes)
+    if (integrals.is_truncated) return OverlapStatus::polygon_truncated;
   return a_whole && b_whole ? OverlapStatus::overlapping : OverlapStatus::polygon_truncated;
 }
 

@@ -33,7 +33,7 @@ TALUS_HD bool visit_part_inside(const PlacedPart& body, const HalfSpace* planes,
     if (-depth_below(planes[p], body.centre) >= body.radius) return true;
   PartRange range;
   range.face_count = plane_count;
-  const PartView solid{range, nullptr, planes, nullptr, nullptr, nullptr, 0};
+  const PartView solid{range, nullptr, planes, nullptr, nullptr, {}};
   PlaneSides sides;
   const Real tolerance = kCoplanarity * body.radius;
   if (classify(solid, body.vertices, tolerance, sides) >= 0) return true;

@@ -25,8 +25,6 @@ TALUS_HD inline void append(Polygon& polygon, const Vec3& corner) {
     polygon.is_truncated = true;
 }
 
-TALUS_HD inline Real depth_below(const HalfSpace& plane, const Vec3& x) { return plane.offset - dot(plane.normal, x); }
-
 /// The piece of `polygon` inside the half-space (its normal need not be a unit vector).
 /// Sutherland & Hodgman, Commun. ACM 17 (1974) 32-42.
 TALUS_HD inline void clip(const Polygon& polygon, const HalfSpace& half_space, Polygon& clipped) {

@@ -4,16 +4,20 @@
 #include <algorithm>
 
 #include "dem_gpu/contacts/elastic_contact.h"
+#include "dem_gpu/narrow_phase/depth_profile.h"
 #include "dem_gpu/narrow_phase/part_overlap.h"
+#include "dem_gpu/narrow_phase/patch_sums.h"
 
 namespace dem_gpu {
 
 /// Overlap integrals V, S, M of two bodies in a's unscaled body frame, additive over part pairs: inner faces are
 /// visited too and cancel. Feng, Comput. Methods Appl. Mech. Eng. 373 (2021) 113493; divergence theorem about a point
-/// of the overlap, not the world's origin.
-struct VolumeIntegrals {
+/// of the overlap, not the world's origin. For friction all of the contact is one patch along S.
+template <class Sums>
+struct VolumeIntegralsOf {
   static constexpr bool kNeedsInnerFaces = true;
   static constexpr bool kNeedsDepthPlanes = false;
+  static constexpr bool kHasPatch = std::is_same_v<Sums, PatchSums>;
 
   Real volume = 0;    // V [m3]
   Vec3 area;          // S = integral over a's surface in b of n dA [m2]
@@ -21,16 +25,22 @@ struct VolumeIntegrals {
   Vec3 first_moment;  // integral of (x - reference) dV [m4]
   Vec3 reference;     // a point of the overlap [m]
   bool has_reference = false;
+  Sums patch;  // of the area
 
-  TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, bool /*is_outer*/, const PartView&,
+  TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, bool is_outer, const PartView&,
                               const FrameChange& b_to_a) {
-    add_volume(polygon, b_to_a.direction(plane_b.normal));
+    const Vec3 normal = b_to_a.direction(plane_b.normal);
+    add_volume(polygon, normal);
+    if constexpr (kHasPatch)
+      if (is_outer) add_area(patch.side_b, polygon, normal, 1);
   }
 
-  TALUS_HD void add_surface_a(Polygon& polygon, const HalfSpace& plane_a, bool /*is_outer*/, const PartView&,
+  TALUS_HD void add_surface_a(Polygon& polygon, const HalfSpace& plane_a, bool is_outer, const PartView&,
                               const FrameChange& b_to_a) {
     for (int c = 0; c < polygon.count; ++c) polygon.corner[c] = b_to_a.point(polygon.corner[c]);
     add_volume(polygon, plane_a.normal);
+    if constexpr (kHasPatch)
+      if (is_outer) add_area(patch.side_a, polygon, plane_a.normal, -1);
     const Vec3 a = polygon.corner[0];
     for (int c = 2; c < polygon.count; ++c) {
       const Vec3 b = polygon.corner[c - 1], d = polygon.corner[c];
@@ -56,7 +66,23 @@ struct VolumeIntegrals {
     return set_normal(contact);
   }
 
+  TALUS_HD ContactPatch to_patch(const OverlapVolume& law, const Pose& a,
+                                 const ElasticContact& contact) const requires kHasPatch {
+    return {rotated(patch.normals(), a.rotation), norm(contact.force), a.scale * patch.lever(),
+            law.stiffness_per_area()};
+  }
+
  private:
+  /// `sign`: the force on a points along b's normals and against a's.
+  TALUS_HD void add_area(PatchSide& side, const Polygon& polygon, const Vec3& normal, Real sign) {
+    const Vec3 a = polygon.corner[0];
+    for (int c = 2; c < polygon.count; ++c) {
+      const Vec3 b = polygon.corner[c - 1], d = polygon.corner[c];
+      const Real triangle = Real(0.5) * dot(cross(b - a, d - a), normal);
+      patch.add(side, triangle, 0, sign * normal, (triangle / 3) * (a + b + d),
+                LinearProfile{}.second_moment({a, b, d, 1, 1, 1, triangle}));
+    }
+  }
   TALUS_HD void add_volume(const Polygon& polygon, const Vec3& normal) {
     if (!has_reference) reference = polygon.corner[0], has_reference = true;
     const Vec3 a = polygon.corner[0] - reference;
@@ -70,5 +96,6 @@ struct VolumeIntegrals {
     }
   }
 };
+using VolumeIntegrals = VolumeIntegralsOf<NoPatchSums>;
 
 }  // namespace dem_gpu

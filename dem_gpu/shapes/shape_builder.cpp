@@ -91,7 +91,7 @@ ConvexPart moved(const ConvexPart& part, const Point& centre, const catalog::Mat
 }
 
 void check_partition(const Shape& shape) {
-  const HostShapeColumns columns = make_host_shape_columns({shape}, 1);
+  const HostShapeColumns columns = make_host_shape_columns({shape}, std::nullopt);
   const ShapeView shapes = view(columns);
   const FrameChange same{{}, {}, 1};
   Real shared = 0;

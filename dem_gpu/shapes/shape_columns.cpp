@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "dem_gpu/shapes/depth_field.h"
+
 namespace dem_gpu {
 namespace {
 
@@ -15,45 +17,6 @@ using catalog::FaceKind;
 Vec3 to_vec3(const catalog::Point& p) { return {p[0], p[1], p[2]}; }
 
 HalfSpace to_half_space(const ConvexFace& face) { return {to_vec3(face.plane.normal), face.plane.offset}; }
-
-bool is_same_plane(const HalfSpace& a, const HalfSpace& b, Real size) {
-  return norm(a.normal - b.normal) < 1e-9 && std::abs(a.offset - b.offset) < 1e-9 * size;
-}
-
-bool lies_behind(const ConvexPart& part, const HalfSpace& plane, Real size) {
-  return std::all_of(part.vertices.begin(), part.vertices.end(), [&](const catalog::Point& vertex) {
-    return dot(plane.normal, to_vec3(vertex)) <= plane.offset + 1e-9 * size;
-  });
-}
-
-/// Terms of the depth field in one part: its own outer planes and every outer plane of the body that the part lies
-/// wholly behind, unless that is the plane of one of the part's own cut faces. Exact distance to the surface for a
-/// convex body whatever its cut.
-std::vector<HalfSpace> depth_planes(const std::vector<ConvexPart>& parts, std::size_t self, Real size) {
-  std::vector<HalfSpace> planes, own_cuts;
-  const auto add_new = [&](const HalfSpace& plane) {
-    for (const HalfSpace& known : planes)
-      if (is_same_plane(known, plane, size)) return;
-    planes.push_back(plane);
-  };
-  for (const ConvexFace& face : parts[self].faces) {
-    if (face.kind == FaceKind::outer)
-      add_new(to_half_space(face));
-    else
-      own_cuts.push_back(to_half_space(face));
-  }
-  for (std::size_t other = 0; other < parts.size(); ++other) {
-    if (other == self) continue;
-    for (const ConvexFace& face : parts[other].faces) {
-      if (face.kind != FaceKind::outer) continue;
-      const HalfSpace plane = to_half_space(face);
-      const bool is_own_cut = std::any_of(own_cuts.begin(), own_cuts.end(),
-                                          [&](const HalfSpace& cut) { return is_same_plane(cut, plane, size); });
-      if (!is_own_cut && lies_behind(parts[self], plane, size)) add_new(plane);
-    }
-  }
-  return planes;
-}
 
 PartRange append_part(HostShapeColumns& columns, const ConvexPart& part) {
   PartRange range;
@@ -86,26 +49,38 @@ PartRange append_part(HostShapeColumns& columns, const ConvexPart& part) {
   return range;
 }
 
+void append_depth_field(HostShapeColumns& columns, const PartDepthField& field, Real cap, PartRange& part) {
+  part.first_depth_plane = static_cast<int>(columns.depth_planes.size());
+  columns.depth_planes.insert(columns.depth_planes.end(), field.planes.begin(), field.planes.end());
+  columns.depth_planes.push_back({Vec3{0, 0, 0}, cap});
+  part.depth_plane_count = static_cast<int>(columns.depth_planes.size()) - part.first_depth_plane;
+  part.first_depth_term = static_cast<int>(columns.depth_terms.size());
+  part.depth_term_count = static_cast<int>(field.greatest.size());
+  for (const GreatestDepth& term : field.greatest) {
+    columns.depth_terms.push_back({static_cast<int>(columns.term_planes.size()), static_cast<int>(term.size())});
+    columns.term_planes.insert(columns.term_planes.end(), term.begin(), term.end());
+  }
+}
+
 void append_polyhedron(HostShapeColumns& columns, const PolyhedralShape& polyhedron, ShapeRange& range,
-                       Real depth_cap) {
+                       std::optional<Real> depth_cap) {
   range.first_part = static_cast<int>(columns.parts.size());
   range.part_count = static_cast<int>(polyhedron.parts.size());
-  for (std::size_t p = 0; p < polyhedron.parts.size(); ++p) {
-    PartRange part = append_part(columns, polyhedron.parts[p]);
-    part.first_depth_plane = static_cast<int>(columns.depth_planes.size());
-    for (const HalfSpace& plane : depth_planes(polyhedron.parts, p, range.equivalent_diameter))
-      columns.depth_planes.push_back(plane);
-    columns.depth_planes.push_back({Vec3{0, 0, 0}, depth_cap * range.equivalent_diameter});
-    part.depth_plane_count = static_cast<int>(columns.depth_planes.size()) - part.first_depth_plane;
-    columns.parts.push_back(part);
-    for (const catalog::Point& vertex : polyhedron.parts[p].vertices)
+  for (const ConvexPart& part : polyhedron.parts) {
+    columns.parts.push_back(append_part(columns, part));
+    for (const catalog::Point& vertex : part.vertices)
       range.bounding_radius = std::max(range.bounding_radius, norm(to_vec3(vertex)));
   }
+  if (!depth_cap) return;
+  const Real cap = *depth_cap * range.equivalent_diameter;
+  const std::vector<PartDepthField> fields = part_depth_fields(polyhedron.parts, range.equivalent_diameter, cap);
+  for (std::size_t p = 0; p < fields.size(); ++p)
+    append_depth_field(columns, fields[p], cap, columns.parts[static_cast<std::size_t>(range.first_part) + p]);
 }
 
 }  // namespace
 
-HostShapeColumns make_host_shape_columns(const std::vector<Shape>& shapes, Real depth_cap) {
+HostShapeColumns make_host_shape_columns(const std::vector<Shape>& shapes, std::optional<Real> depth_cap) {
   HostShapeColumns columns;
   for (const Shape& shape : shapes) {
     ShapeRange range;
@@ -121,7 +96,7 @@ HostShapeColumns make_host_shape_columns(const std::vector<Shape>& shapes, Real 
   return columns;
 }
 
-ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, Real depth_cap) {
+ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, std::optional<Real> depth_cap) {
   const HostShapeColumns host = make_host_shape_columns(shapes, depth_cap);
   ShapeColumns columns;
   assign(columns.shapes, host.shapes);
@@ -131,17 +106,21 @@ ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, Real depth_cap
   assign(columns.faces, host.faces);
   assign(columns.corners, host.corners);
   assign(columns.depth_planes, host.depth_planes);
+  assign(columns.depth_terms, host.depth_terms);
+  assign(columns.term_planes, host.term_planes);
   return columns;
 }
 
 ShapeView view(const ShapeColumns& columns) {
-  return {pointer(columns.shapes), pointer(columns.parts),   pointer(columns.vertices),    pointer(columns.planes),
-          pointer(columns.faces),  pointer(columns.corners), pointer(columns.depth_planes)};
+  return {pointer(columns.shapes),       pointer(columns.parts),       pointer(columns.vertices),
+          pointer(columns.planes),       pointer(columns.faces),       pointer(columns.corners),
+          pointer(columns.depth_planes), pointer(columns.depth_terms), pointer(columns.term_planes)};
 }
 
 ShapeView view(const HostShapeColumns& columns) {
-  return {columns.shapes.data(), columns.parts.data(),   columns.vertices.data(),    columns.planes.data(),
-          columns.faces.data(),  columns.corners.data(), columns.depth_planes.data()};
+  return {columns.shapes.data(),       columns.parts.data(),       columns.vertices.data(),
+          columns.planes.data(),       columns.faces.data(),       columns.corners.data(),
+          columns.depth_planes.data(), columns.depth_terms.data(), columns.term_planes.data()};
 }
 
 }  // namespace dem_gpu

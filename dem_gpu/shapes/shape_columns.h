@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "dem_gpu/core/device_vector.h"
@@ -10,17 +11,19 @@
 
 namespace dem_gpu {
 
-/// Half-space boundary: inside where dot(normal, x) <= offset. Depth below it is offset - dot(normal, x).
+/// Half-space boundary: inside where dot(normal, x) <= offset.
 struct HalfSpace {
   Vec3 normal;
   Real offset = 0;
 };
+TALUS_HD inline Real depth_below(const HalfSpace& plane, const Vec3& x) { return plane.offset - dot(plane.normal, x); }
 
 struct PartRange {
   int first_vertex = 0, vertex_count = 0;
   int first_face = 0, face_count = 0;  // outer faces first
   int outer_face_count = 0;
   int first_depth_plane = 0, depth_plane_count = 0;
+  int first_depth_term = 0, depth_term_count = 0;
   Vec3 centre;      // of the bounding sphere, body frame [m]
   Real radius = 0;  // of the bounding sphere [m]
 };
@@ -31,6 +34,11 @@ struct FaceCorners {
   std::uint64_t vertices = 0;  // the same corners as a set: bit v for vertex v of the part
 };
 static_assert(kMaxPartVertices <= 64);
+
+/// Term of a depth field: the greatest of the depths below a few planes.
+struct DepthTerm {
+  int first = 0, count = 0;  // into term_planes
+};
 
 struct ShapeRange {
   int first_part = 0, part_count = 0;  // 0 parts: a sphere
@@ -50,8 +58,10 @@ struct ShapeColumns {
   DeviceVector<HalfSpace> planes;      // n_faces
   DeviceVector<FaceCorners> faces;     // n_faces
   DeviceVector<std::uint8_t> corners;  // vertex of the part, per corner of a face
-  DeviceVector<HalfSpace>
-      depth_planes;  // n_depth_planes: the body's depth field in a part is the least depth below these
+  // The body's depth field in a part: the least of the depths below depth_planes and of the depth terms.
+  DeviceVector<HalfSpace> depth_planes;
+  DeviceVector<DepthTerm> depth_terms;
+  DeviceVector<HalfSpace> term_planes;
 };
 
 /// The same on the host, for checks and tests.
@@ -63,6 +73,8 @@ struct HostShapeColumns {
   std::vector<FaceCorners> faces;
   std::vector<std::uint8_t> corners;
   std::vector<HalfSpace> depth_planes;
+  std::vector<DepthTerm> depth_terms;
+  std::vector<HalfSpace> term_planes;
 };
 
 struct ShapeView {
@@ -73,11 +85,13 @@ struct ShapeView {
   const FaceCorners* faces;
   const std::uint8_t* corners;
   const HalfSpace* depth_planes;
+  const DepthTerm* depth_terms;
+  const HalfSpace* term_planes;
 };
 
-/// `depth_cap` in equivalent diameters: a constant term of every depth field.
-HostShapeColumns make_host_shape_columns(const std::vector<Shape>& shapes, Real depth_cap);
-ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, Real depth_cap);
+/// `depth_cap` in equivalent diameters: a constant term of every depth field; nullopt: no depth fields.
+HostShapeColumns make_host_shape_columns(const std::vector<Shape>& shapes, std::optional<Real> depth_cap);
+ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, std::optional<Real> depth_cap);
 ShapeView view(const ShapeColumns& columns);
 ShapeView view(const HostShapeColumns& columns);
 

@@ -14,8 +14,9 @@ constexpr int kDiscSides = 48;
 /// Adds one convex part of a body to a disc's integrals, world axes about the body's centre. Without a thickness depth
 /// is that below the face, whatever the rim; a plate's depth is the distance to its nearest side. False if a polygon
 /// was truncated.
-TALUS_HD inline bool integrate_part_in_disc(const PlacedPart& body, const Vec3& body_centre, const WallRecord& wall,
-                                            WallIntegrals& integrals) {
+template <class Integrals>
+TALUS_HD bool integrate_part_in_disc(const PlacedPart& body, const Vec3& body_centre, const WallRecord& wall,
+                                     Integrals& integrals) {
   constexpr Real kTurn = 2 * std::numbers::pi_v<Real> / kDiscSides;
   const Vec3 to_centre = wall.point - body_centre;
   const auto plane = [&](const Vec3& normal, Real from_centre) {
@@ -30,11 +31,14 @@ TALUS_HD inline bool integrate_part_in_disc(const PlacedPart& body, const Vec3& 
     planes[count++] = plane(std::cos(k * kTurn) * side + std::sin(k * kTurn) * other, apothem);
   if (wall.thickness > 0) planes[count++] = plane(-wall.direction, wall.thickness);
   const int field_planes = wall.thickness > 0 ? count : 1;
-  return visit_part_inside(body, planes.data(), count, [&](const Polygon& polygon, int face) {
-    const Vec3 normal = body.face_normal(face);
-    integrals.add_polygon(integrate_depth(polygon, planes.data(), field_planes, normal), normal,
-                          face < body.part.range.outer_face_count);
+  bool is_whole = true;
+  const bool is_clipped = visit_part_inside(body, planes.data(), count, [&](const Polygon& polygon, int face) {
+    visit_least_depth(polygon, planes.data(), field_planes, [&](const Polygon& piece, const HalfSpace& nearest) {
+      is_whole &= !piece.is_truncated;
+      integrals.add_polygon(piece, nearest, body.face_normal(face), face < body.part.range.outer_face_count);
+    });
   });
+  return is_clipped && is_whole;
 }
 
 }  // namespace dem_gpu

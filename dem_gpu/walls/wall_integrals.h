@@ -3,43 +3,53 @@
 
 #include "dem_gpu/contacts/elastic_contact.h"
 #include "dem_gpu/core/scratch_array.h"
-#include "dem_gpu/narrow_phase/depth_integrals.h"
+#include "dem_gpu/narrow_phase/part_frame.h"
+#include "dem_gpu/narrow_phase/polygon_depth.h"
 #include "dem_gpu/scene.h"
 #include "dem_gpu/walls/curved_window.h"
+#include "dem_gpu/walls/wall_patch_sums.h"
 #include "dem_gpu/walls/wall_surface.h"
 
 namespace dem_gpu {
+
+/// Corner of a triangle with the wall's field there, position relative to the body's centre.
+struct WallSample {
+  Vec3 position;
+  WallField field;
+};
 
 /// Integrals of a wall's depth over the part of a body's surface inside the wall (all faces of its parts, see
 /// DepthIntegrals), world frame about `centre`:
 /// force direction = - integral of depth n dA. The wall's field alone carries the contact (U = 2 k integral of the
 /// wall's depth over the overlap), so a flat face meets a wall as it meets another flat face. Planes are exact; on
-/// curved walls each face is cut into pieces on which the depth is taken as linear (see kChordError).
-struct WallIntegrals {
+/// curved walls each face is cut into pieces on which the depth is taken as linear (see kChordError). A hardening law
+/// takes psi = profile(depth) in place of the depth.
+template <class Profile, class Sums = NoPatchSums>
+struct WallIntegralsOf {
+  static constexpr bool kHasPatch = std::is_same_v<Sums, WallPatchSums>;
+
+  Profile profile{};
+
   Vec3 force;           // [m3]
   Vec3 moment;          // [m4]
   Real weight = 0;      // [m3]
   Vec3 weighted_point;  // [m4]
-  Vec3 area;            // vector area of the surface inside [m2]
+  Vec3 area;            // vector area of the surface inside, weighted by d psi / d depth [m2]
   Real largest_depth = 0;
+  Sums patch;
 
-  /// Corner of a triangle with the wall's field there, position relative to the body's centre.
-  struct Sample {
-    Vec3 position;
-    WallField field;
-  };
-
-  TALUS_HD void add_triangle(const Sample& a, const Sample& b, const Sample& c, const Vec3& normal, bool is_outer) {
+  TALUS_HD void add_triangle(const WallSample& a, const WallSample& b, const WallSample& c, const Vec3& normal,
+                             bool is_outer) {
     constexpr int kMaxCorners = 6;  // a triangle cut by three fields
-    Sample buffer[2][kMaxCorners] = {{a, b, c}};
+    WallSample buffer[2][kMaxCorners] = {{a, b, c}};
     int count = 3, current = 0;
     for (int field = 0; field < 3 && count >= 3; ++field) {
-      const Sample* from = buffer[current];
-      Sample* to = buffer[1 - current];
+      const WallSample* from = buffer[current];
+      WallSample* to = buffer[1 - current];
       int kept = 0;
       for (int i = 0; i < count; ++i) {
-        const Sample& here = from[i];
-        const Sample& next = from[(i + 1) % count];
+        const WallSample& here = from[i];
+        const WallSample& next = from[(i + 1) % count];
         const Real here_value = value(here, field), next_value = value(next, field);
         if (here_value >= 0) to[kept++] = here;
         if ((here_value > 0 && next_value < 0) || (here_value < 0 && next_value > 0))
@@ -52,8 +62,11 @@ struct WallIntegrals {
       add_linear(buffer[current][0], buffer[current][i - 1], buffer[current][i], normal, is_outer);
   }
 
-  /// A polygon whose depth is integrated already, in the axes and about the point that the sums are in.
-  TALUS_HD void add_polygon(const PolygonDepth& sum, const Vec3& normal, bool is_outer) {
+  /// A polygon in the wall's depth below one plane, in the axes and about the point that the sums are in.
+  TALUS_HD void add_polygon(const Polygon& polygon, const HalfSpace& plane, const Vec3& normal, bool is_outer) {
+    std::conditional_t<kHasPatch, PolygonPatchDepthOf<Profile>, PolygonDepthOf<Profile>> sum;
+    sum.profile = profile;
+    add_linear_depth(polygon, plane, normal, sum);
     force -= sum.depth * normal;
     moment -= cross(sum.depth_moment, normal);
     area += sum.area * normal;
@@ -61,6 +74,7 @@ struct WallIntegrals {
     weight += sum.depth;
     weighted_point += sum.depth_moment;
     largest_depth = std::max(largest_depth, sum.largest);
+    if constexpr (kHasPatch) patch.add(sum.depth, normal, plane.normal, sum.second_moment);
   }
 
   /// The same sums in axes turned by `rotation`.
@@ -69,8 +83,10 @@ struct WallIntegrals {
     moment = rotation * moment;
     weighted_point = rotation * weighted_point;
     area = rotation * area;
+    if constexpr (kHasPatch) patch.tensor = rotated(patch.tensor, rotation);
   }
 
+  /// `stiffness`: of a flat face on the wall [N/m3].
   TALUS_HD bool to_contact(Real stiffness, const Vec3& centre, ElasticContact& contact) const {
     if (!(weight > 0)) return false;
     contact.force = stiffness * force;
@@ -81,31 +97,41 @@ struct WallIntegrals {
     return set_normal(contact);
   }
 
+  TALUS_HD ContactPatch to_patch(Real stiffness) const requires kHasPatch {
+    const Real square = patch.second_moment / weight - norm_squared(weighted_point / weight);
+    return {patch.normals(), stiffness * std::max(patch.load, Real(0)), std::sqrt(std::max(square, Real(0))),
+            stiffness};
+  }
+
  private:
-  TALUS_HD static Real value(const Sample& sample, int field) {
+  TALUS_HD static Real value(const WallSample& sample, int field) {
     return field == 0 ? sample.field.depth : field == 1 ? sample.field.from_base : sample.field.from_top;
   }
-  TALUS_HD static Sample between(const Sample& a, const Sample& b, Real t) {
+  TALUS_HD static WallSample between(const WallSample& a, const WallSample& b, Real t) {
     const auto mix = [&](Real x, Real y) { return x + t * (y - x); };
     return {a.position + t * (b.position - a.position),
             {mix(a.field.depth, b.field.depth), mix(a.field.from_base, b.field.from_base),
              mix(a.field.from_top, b.field.from_top)}};
   }
-  TALUS_HD void add_linear(const Sample& a, const Sample& b, const Sample& c, const Vec3& normal, bool is_outer) {
+  TALUS_HD void add_linear(const WallSample& a, const WallSample& b, const WallSample& c, const Vec3& normal,
+                           bool is_outer) {
     const Real triangle = Real(0.5) * dot(cross(b.position - a.position, c.position - a.position), normal);
-    const Real da = a.field.depth, db = b.field.depth, dc = c.field.depth, total = da + db + dc;
-    const Real depth = triangle * total / 3;
-    const Vec3 depth_moment = (triangle / 12) * (da * a.position + db * b.position + dc * c.position +
-                                                 total * (a.position + b.position + c.position));
+    const Real da = a.field.depth, db = b.field.depth, dc = c.field.depth;
+    const DepthTriangle piece{a.position, b.position, c.position, da, db, dc, triangle};
+    const auto [depth, depth_moment, stiff_area] = profile.integrate(piece);
     force -= depth * normal;
     moment -= cross(depth_moment, normal);
-    area += triangle * normal;
+    area += stiff_area * normal;
     if (!is_outer) return;
     weight += depth;
     weighted_point += depth_moment;
     largest_depth = std::max(largest_depth, std::max(da, std::max(db, dc)));
+    if constexpr (kHasPatch)
+      if (depth > 0) patch.add(depth, normal, patch.wall_normal_at(depth_moment / depth), profile.second_moment(piece));
   }
 };
+
+using WallIntegrals = WallIntegralsOf<LinearProfile>;
 
 /// Chord error that a piece of a face may have against a curved wall, as a share of the part's radius.
 constexpr Real kChordError = Real(0.002);
@@ -116,9 +142,9 @@ constexpr int kMostPiecesOutside = 24;
 
 /// Adds the triangle a, b, c of a flat face (relative to the body's centre) in pieces small enough for the wall's depth
 /// to be linear on each: a chord of length h leaves a circle of radius R by h^2 / (8 R).
-template <class Sampler>
+template <class Sampler, class Integrals>
 TALUS_HD void add_in_pieces(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal, bool is_outer,
-                            Real longest_piece, int most_pieces, const Sampler& sample, WallIntegrals& integrals) {
+                            Real longest_piece, int most_pieces, const Sampler& sample, Integrals& integrals) {
   const Real longest = std::sqrt(std::max(norm_squared(b - a), std::max(norm_squared(c - a), norm_squared(c - b))));
   const int pieces =
       longest < most_pieces * longest_piece ? 1 + static_cast<int>(longest / longest_piece) : most_pieces;
@@ -127,12 +153,12 @@ TALUS_HD void add_in_pieces(const Vec3& a, const Vec3& b, const Vec3& c, const V
     return sample(a + static_cast<Real>(row) * along_b + static_cast<Real>(column) * along_c);
   };
   for (int row = 0; row < pieces; ++row) {
-    WallIntegrals::Sample low = corner(row, 0), high = corner(row + 1, 0);
+    WallSample low = corner(row, 0), high = corner(row + 1, 0);
     for (int column = 0; column < pieces - row; ++column) {
-      const WallIntegrals::Sample next_low = corner(row, column + 1);
+      const WallSample next_low = corner(row, column + 1);
       integrals.add_triangle(low, high, next_low, normal, is_outer);
       if (column + 1 < pieces - row) {
-        const WallIntegrals::Sample next_high = corner(row + 1, column + 1);
+        const WallSample next_high = corner(row + 1, column + 1);
         integrals.add_triangle(high, next_high, next_low, normal, is_outer);
         high = next_high;
       }
@@ -149,15 +175,16 @@ TALUS_HD inline Real longest_piece_on(const WallRecord& wall, const Vec3& centre
 }
 
 /// Adds one convex part of a body at `pose` to the integrals of a plane, or of a curved wall with the bodies inside.
-TALUS_HD inline void integrate_part_in_wall(const PartView& part, const Pose& pose, const WallRecord& wall,
-                                            WallIntegrals& integrals) {
+template <class Integrals>
+TALUS_HD void integrate_part_in_wall(const PartView& part, const Pose& pose, const WallRecord& wall,
+                                     Integrals& integrals) {
   const Vec3 centre = pose.scale * (pose.rotation * part.range.centre) + pose.position;
   const Real radius = pose.scale * part.range.radius;
   if (wall_field(wall, centre).depth + radius <= 0) return;
   const auto sample = [&](const Vec3& relative) {
-    return WallIntegrals::Sample{relative, wall_field(wall, pose.position + relative)};
+    return WallSample{relative, wall_field(wall, pose.position + relative)};
   };
-  ScratchArray<WallIntegrals::Sample, kMaxPartVertices> vertices;
+  ScratchArray<WallSample, kMaxPartVertices> vertices;
   bool touches = false;
   for (int v = 0; v < part.range.vertex_count; ++v) {
     vertices[v] = sample(pose.scale * (pose.rotation * part.vertices[v]));
@@ -175,8 +202,7 @@ TALUS_HD inline void integrate_part_in_wall(const PartView& part, const Pose& po
     if (!face_touches) continue;
     const Vec3 normal = pose.rotation * part.planes[f].normal;
     for (int c = 2; c < face.count; ++c) {
-      const WallIntegrals::Sample &first = vertices[corner[0]], &second = vertices[corner[c - 1]],
-                                  &third = vertices[corner[c]];
+      const WallSample &first = vertices[corner[0]], &second = vertices[corner[c - 1]], &third = vertices[corner[c]];
       if (is_curved)
         add_in_pieces(first.position, second.position, third.position, normal, is_outer, longest_piece, kMostPieces,
                       sample, integrals);
@@ -188,13 +214,14 @@ TALUS_HD inline void integrate_part_in_wall(const PartView& part, const Pose& po
 
 /// Adds one convex part of a body at `pose` to the integrals of a ball, shaft or cone with the bodies outside: each
 /// face is first cut down to where the wall can reach it. False if a polygon was truncated.
-TALUS_HD inline bool integrate_part_outside(const PartView& part, const Pose& pose, const WallRecord& wall,
-                                            WallIntegrals& integrals) {
+template <class Integrals>
+TALUS_HD bool integrate_part_outside(const PartView& part, const Pose& pose, const WallRecord& wall,
+                                     Integrals& integrals) {
   const Vec3 centre = pose.scale * (pose.rotation * part.range.centre) + pose.position;
   const Real radius = pose.scale * part.range.radius;
   if (wall_field(wall, centre).depth + radius <= 0) return true;
   const auto sample = [&](const Vec3& relative) {
-    return WallIntegrals::Sample{relative, wall_field(wall, pose.position + relative)};
+    return WallSample{relative, wall_field(wall, pose.position + relative)};
   };
   const Vec3 point = wall.point - pose.position;
   Polygon buffer[2];

@@ -13,6 +13,8 @@ inline dem_gpu::Scene mixed_scene() {
   scene.materials.push_back({"steel", 7800});
   scene.contact.assign(2, {{0.5, 0.4}, {0.6, 0.2}});
   scene.contact[1] = {{0.6, 0.2}, {0.7, 0.3}};
+  scene.contact[1][1].rolling_friction = 0.05;
+  scene.contact[1][1].adhesion = 0.02;
   scene.polyhedral_law = dem_gpu::DepthPotential{1e8};
   scene.sphere_law = dem_gpu::LinearSpring{2e4};
   std::mt19937 random(77);

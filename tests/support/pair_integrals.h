@@ -23,10 +23,10 @@ class PairIntegrals {
   PairIntegrals(std::vector<catalog::ConvexPart> a, std::vector<catalog::ConvexPart> b, Real depth_cap = 100)
       : columns_(dem_gpu::make_host_shape_columns({shape(std::move(a)), shape(std::move(b))}, depth_cap)) {}
 
+  /// `integrals`: as they are before any overlap.
   template <class Integrals>
-  Integrals of(const Placed& a, const Placed& b, bool swapped = false) const {
+  Integrals of(const Placed& a, const Placed& b, bool swapped = false, Integrals integrals = {}) const {
     std::vector<dem_gpu::SeparatingPlane> cache(columns_.parts.size() * columns_.parts.size(), 0);
-    Integrals integrals;
     const int first = swapped ? 1 : 0;
     dem_gpu::integrate_bodies(view(columns_), first, 1 - first, a.pose(), b.pose(), cache.data(), integrals);
     return integrals;

@@ -35,6 +35,7 @@ struct PlotCurve {
   std::string label;
   std::vector<double> x, y;              // n_points
   std::vector<std::string> point_names;  // n_points, for naming what failed
+  bool is_reference = false;             // points without a line: somebody else's
 };
 
 struct CaseResult {
@@ -48,12 +49,13 @@ struct BenchCase {
   std::function<CaseResult()> measure;
 };
 
-/// A plot with logarithmic axes; each curve that names it is drawn in it.
+/// A plot, with logarithmic axes unless `is_linear`; each curve that names it is drawn in it.
 struct PlotAxes {
   std::string name;  // of the file
   std::string title;
   std::string x_label;  // with its unit: "time [s]"
   std::string y_label;
+  bool is_linear = false;
 };
 
 struct BenchPlan {

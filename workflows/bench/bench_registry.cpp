@@ -8,7 +8,11 @@ namespace workflows {
 
 const std::vector<Bench>& benches() {
   static const std::vector<Bench> all{
+      {"box", "200 elastic bodies in a closed room: energy and momentum over 1e5 collisions", plan_box_bench},
+      {"bulk", "whole scenes: wall time against error of path, settled height and mill power", plan_bulk_bench},
       {"contact", "single impacts: wall time against error of restitution and contact time", plan_contact_bench},
+      {"impacts", "sphere impacts of Chung & Ooi (2011), tests 1-8, beside exact and published values",
+       plan_impacts_bench},
       {"laws", "contact laws: energy round closed paths, cuts into parts, stiffness exponents", plan_laws_bench},
       {"overlap", "overlap integrals: error against closed forms, time per pair", plan_overlap_bench},
       {"pile", "300 mixed grains settling: speed, energy balance, overlap, threads", plan_pile_bench},

@@ -21,7 +21,10 @@ const std::vector<Bench>& benches();
 const Bench& bench_named(const std::string& name);
 
 // One function a bench, in the file of its name.
+BenchPlan plan_box_bench(const BenchOptions& options);
+BenchPlan plan_bulk_bench(const BenchOptions& options);
 BenchPlan plan_contact_bench(const BenchOptions& options);
+BenchPlan plan_impacts_bench(const BenchOptions& options);
 BenchPlan plan_laws_bench(const BenchOptions& options);
 BenchPlan plan_overlap_bench(const BenchOptions& options);
 BenchPlan plan_pile_bench(const BenchOptions& options);

@@ -20,6 +20,15 @@ dem_gpu::Shape cut_box_shape(const dem_gpu::Vec3& size, const std::array<int, 3>
 /// L of three unit squares in the xy plane, 1 high, its inner corner at the origin; as 2 or 3 boxes.
 dem_gpu::Shape l_shape(int part_count);
 
+/// Cross of five unit squares in the xy plane, 1 high, its middle at the origin; as 3 or 5 boxes.
+dem_gpu::Shape cross_shape(int part_count);
+
+/// Rough rock about the origin, about 1 in radius, of 32 tetrahedra that meet at its centre.
+dem_gpu::Shape rough_rock_shape();
+
+/// Two posts 0.3 wide and a bridge between them, 1 x 0.5 m, that stands 0.02 m above the posts' feet at z = -0.5 m.
+dem_gpu::Shape bridge_shape();
+
 /// Regular tetrahedron on four corners of the unit cube centred at the origin: those with xyz > 0.
 dem_gpu::Shape tetrahedron_shape();
 

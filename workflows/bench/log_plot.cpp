@@ -15,14 +15,31 @@ constexpr double kLeft = 70, kTop = 40, kPlotWidth = 480, kPlotHeight = 340, kLe
 constexpr std::array<const char*, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                               "#e69f00", "#56b4e9", "#000000"};
 
-struct LogRange {
-  double low = INFINITY, high = -INFINITY;  // powers of ten
+struct AxisRange {
+  bool is_linear = false;
+  double low = INFINITY, high = -INFINITY;  // powers of ten, or values
 
   void cover(double value) {
-    low = std::min(low, std::floor(std::log10(value)));
-    high = std::max(high, std::ceil(std::log10(value)));
+    low = std::min(low, is_linear ? value : std::floor(std::log10(value)));
+    high = std::max(high, is_linear ? value : std::ceil(std::log10(value)));
   }
-  double share(double value) const { return (std::log10(value) - low) / (high - low); }
+  double share(double value) const { return ((is_linear ? value : std::log10(value)) - low) / (high - low); }
+
+  /// Values to label, at most about eight; linear ones are 1, 2 or 5 times a power of ten apart.
+  std::vector<double> ticks() const {
+    std::vector<double> values;
+    if (!is_linear) {
+      for (double power = low; power <= high; power += std::max(1.0, std::ceil((high - low) / 8)))
+        values.push_back(std::pow(10, power));
+      return values;
+    }
+    const double decade = std::pow(10, std::floor(std::log10((high - low) / 8)));
+    double spacing = decade;
+    for (const double factor : {2.0, 5.0, 10.0})
+      if ((high - low) / spacing > 8) spacing = factor * decade;
+    for (double i = std::ceil(low / spacing); i * spacing <= high; ++i) values.push_back(i * spacing);
+    return values;
+  }
 };
 
 std::string escaped(const std::string& text) {
@@ -51,10 +68,12 @@ std::string text_at(double x, double y, const char* anchor, const std::string& t
   return format("<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\">", x, y, anchor) + escaped(text) + "</text>\n";
 }
 
-bool is_drawn(double x, double y) { return std::isfinite(x) && std::isfinite(y) && x > 0 && y > 0; }
-
 struct Canvas {
-  LogRange x, y;
+  AxisRange x, y;
+
+  bool is_drawn(double at_x, double at_y) const {
+    return std::isfinite(at_x) && std::isfinite(at_y) && (x.is_linear || (at_x > 0 && at_y > 0));
+  }
 
   double across(double value) const { return kLeft + kPlotWidth * x.share(value); }
   double down(double value) const { return kTop + kPlotHeight * (1 - y.share(value)); }
@@ -64,17 +83,18 @@ struct Canvas {
     const auto rule = [&](double x1, double y1, double x2, double y2) {
       svg += format("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#ddd\"/>\n", x1, y1, x2, y2);
     };
-    // At most about eight labels an axis.
-    const auto spacing = [](const LogRange& range) { return std::max(1.0, std::ceil((range.high - range.low) / 8)); };
-    for (double power = x.low; power <= x.high; power += spacing(x)) {
-      const double at = across(std::pow(10, power));
+    const auto label = [](const AxisRange& range, double value) {
+      return range.is_linear ? format("%.3g", value) : format("1e%.0f", std::log10(value));
+    };
+    for (const double value : x.ticks()) {
+      const double at = across(value);
       rule(at, kTop, at, kTop + kPlotHeight);
-      svg += text_at(at, kTop + kPlotHeight + kLine, "middle", format("1e%.0f", power));
+      svg += text_at(at, kTop + kPlotHeight + kLine, "middle", label(x, value));
     }
-    for (double power = y.low; power <= y.high; power += spacing(y)) {
-      const double at = down(std::pow(10, power));
+    for (const double value : y.ticks()) {
+      const double at = down(value);
       rule(kLeft, at, kLeft + kPlotWidth, at);
-      svg += text_at(kLeft - 6, at + 4, "end", format("1e%.0f", power));
+      svg += text_at(kLeft - 6, at + 4, "end", label(y, value));
     }
     return svg;
   }
@@ -87,17 +107,19 @@ struct Canvas {
       points += format("%.1f,%.1f ", px, py);
       dots += format("<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3\" fill=\"%s\"/>\n", px, py, colour);
     }
+    if (curve.is_reference) return dots;
     return "<polyline fill=\"none\" stroke-width=\"1.5\" stroke=\"" + std::string(colour) + "\" points=\"" + points +
            "\"/>\n" + dots;
   }
 };
 
-Canvas canvas_for(const std::vector<const PlotCurve*>& curves) {
+Canvas canvas_for(const std::vector<const PlotCurve*>& curves, bool is_linear) {
   Canvas canvas;
+  canvas.x.is_linear = canvas.y.is_linear = is_linear;
   for (const PlotCurve* curve : curves)
     for (std::size_t i = 0; i < curve->x.size(); ++i)
-      if (is_drawn(curve->x[i], curve->y[i])) canvas.x.cover(curve->x[i]), canvas.y.cover(curve->y[i]);
-  for (LogRange* range : {&canvas.x, &canvas.y}) {
+      if (canvas.is_drawn(curve->x[i], curve->y[i])) canvas.x.cover(curve->x[i]), canvas.y.cover(curve->y[i]);
+  for (AxisRange* range : {&canvas.x, &canvas.y}) {
     if (!(range->low <= range->high)) *range = {0, 1};
     if (range->low == range->high) range->high += 1;
   }
@@ -122,7 +144,7 @@ std::string log_plot_svg(const PlotAxes& axes, const std::vector<PlotCurve>& all
   const double width = kLeft + kPlotWidth + kLegendWidth;
   const double height = kTop + kPlotHeight + 60 + kLine * static_cast<double>(failed.size());
 
-  const Canvas canvas = canvas_for(curves);
+  const Canvas canvas = canvas_for(curves, axes.is_linear);
   std::string svg = format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%.0f\" ", width, height) +
                     format("viewBox=\"0 0 %.0f %.0f\" font-family=\"sans-serif\" font-size=\"12\">\n", width, height) +
                     "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";

@@ -8,7 +8,7 @@
 
 namespace workflows {
 
-/// SVG line plot on logarithmic axes of the curves that name these axes. Points without a positive value (an error of
+/// SVG line plot of the curves that name these axes. On logarithmic ones, points without a positive value (an error of
 /// exactly zero) are left out; failed runs are listed below the plot.
 std::string log_plot_svg(const PlotAxes& axes, const std::vector<PlotCurve>& curves);
 

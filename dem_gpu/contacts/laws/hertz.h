@@ -18,6 +18,7 @@ struct Hertz {
     return 2 * effective_modulus * std::sqrt(effective_radius * overlap);
   }
   static constexpr Real kExponent = Real(1.5);
+  static constexpr bool kIsAdhesive = false;
 };
 
 }  // namespace dem_gpu

@@ -20,6 +20,7 @@ struct LinearSpring {
     return stiffness;
   }
   static constexpr Real kExponent = 1;  // F ~ overlap^n
+  static constexpr bool kIsAdhesive = false;
 };
 
 }  // namespace dem_gpu

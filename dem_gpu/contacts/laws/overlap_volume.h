@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dem_gpu/core/host_device.h"
 #include "dem_gpu/core/real.h"
 
 namespace dem_gpu {
@@ -10,6 +11,9 @@ namespace dem_gpu {
 /// for comparison with the literature.
 struct OverlapVolume {
   Real stiffness = 0;  // k [N/m3]
+
+  /// Of two flat faces [N/m3].
+  TALUS_HD Real stiffness_per_area() const { return stiffness; }
 };
 
 }  // namespace dem_gpu

@@ -44,7 +44,7 @@ TEST(InitialState, ReachIntoABlockIsMeasuredToFaceEdgeAndCorner) {
 }
 
 TEST(InitialState, BallsOfDifferentFillsMustBeApart) {
-  const std::vector<std::string> names{"ore", "balls"};
+  const std::vector<std::string> names{"fill \"ore\"", "fill \"balls\""};
   EXPECT_EQ(
       overlapping_balls({{{0, 0, 0}, 1, 0}, {{2, 0, 0}, 1, 1}, {{0.5, 0, 0}, 1, 0}}, names),
       "bodies of fill \"ore\" and fill \"balls\" would start inside one another; move their regions apart, or give "

@@ -13,6 +13,8 @@
 #include "catalog/mass_properties.h"
 #include "tests/support/scene_text.h"
 #include "tests/support/temporary_folder.h"
+#include "workflows/run_reports.h"
+#include "workflows/scene_assembly.h"
 
 namespace workflows {
 namespace {
@@ -218,17 +220,45 @@ height = "-5 cm"
   EXPECT_DOUBLE_EQ(scene.outflow->height, -0.05);
 }
 
+TEST(SceneReader, ReadsHardeningAndWhereTheOverlapIsMeant) {
+  const SceneDescription description = read(
+      with(drum_scene(), "at_speed = \"1 m/s\"", "at_speed = \"1 m/s\"\noverlap_at = \"corner\"\nhardening = \"2 %\""));
+  const auto& law = std::get<dem_gpu::HardeningDepthPotential>(description.scene.polyhedral_law);
+  EXPECT_DOUBLE_EQ(law.hardening, 0.02);
+  EXPECT_DOUBLE_EQ(law.depth_cap, dem_gpu::DepthPotential{}.depth_cap);
+  EXPECT_EQ(description.stiffness.overlap_at, dem_gpu::OverlapAt::corner);
+}
+
 TEST(SceneReader, ReadsPresetsLawsAndSwitches) {
   std::string text = with(drum_scene(), "end_time = \"40 ms\"", "end_time = \"40 ms\"\npreset = \"reference\"");
   text = with(text, "polyhedra = \"depth_potential\"\nlargest_overlap = \"3 %\"\nat_speed = \"1 m/s\"",
               "polyhedra = \"volume\"\nstiffness = \"2e7 N/m3\"\nspheres = \"hertz\"\nfriction = false");
   const SceneDescription description = read(text + "[ledger]\nenabled = false\n");
   EXPECT_EQ(description.scene.run.steps_per_contact, 40);
+  EXPECT_EQ(description.scene.run.preset, dem_gpu::Preset::reference);
   EXPECT_TRUE(std::holds_alternative<dem_gpu::OverlapVolume>(description.scene.polyhedral_law));
   EXPECT_TRUE(std::holds_alternative<dem_gpu::Hertz>(description.scene.sphere_law));
   EXPECT_DOUBLE_EQ(*description.stiffness.polyhedra, 2e7);
   EXPECT_FALSE(description.scene.friction);
   EXPECT_FALSE(description.scene.energy_ledger);
+}
+
+TEST(SceneReader, APresetIsAPromiseThatAStepOfOnesOwnMayBreak) {
+  const auto warning_at = [](const std::string& lines) {
+    const SceneDescription description =
+        read(with(drum_scene(), "end_time = \"40 ms\"", "end_time = \"40 ms\"\n" + lines));
+    return start_warning(assemble_scene(description).scene);
+  };
+  EXPECT_FALSE(warning_at(""));
+  EXPECT_FALSE(warning_at("preset = \"draft\""));
+  EXPECT_FALSE(warning_at("preset = \"standard\"\ntime_step = \"1 us\""));
+  const dem_gpu::Scene scene = assemble_scene(read(drum_scene())).scene;
+  const double shortest = dem_gpu::shortest_contact_time(scene);
+  const std::string twelve_steps = "time_step = " + std::to_string(shortest / 12);
+  EXPECT_FALSE(warning_at("preset = \"draft\"\n" + twelve_steps));
+  const auto warning = warning_at(twelve_steps);
+  ASSERT_TRUE(warning);
+  EXPECT_NE(warning->find(" 12 steps, not the 20 that preset \"standard\""), std::string::npos) << *warning;
 }
 
 TEST(SceneReader, CataloguePathsStartFromTheSceneFolder) {
@@ -283,6 +313,10 @@ const BadScene kBadScenes[] = {
     {"definition = \"sieve\", ", "", "{kind", "key 'definition' is missing"},
     {"count = 12\n", "", "[[fill]]\nname = \"blocks\"", "either count or mass"},
     {"largest_overlap = \"3 %\"\nat_speed = \"1 m/s\"", "", "[contact_law]", "how stiff contacts are"},
+    {"at_speed = \"1 m/s\"", "at_speed = \"1 m/s\"\nhardening = 0", "0\n\n[motion.drum]", "it must be more than 0"},
+    {"at_speed = \"1 m/s\"", "at_speed = \"1 m/s\"\noverlap_at = \"edge\"", "\"edge\"", "\"face\", \"corner\""},
+    {"polyhedra = \"depth_potential\"", "polyhedra = \"volume\"\nhardening = \"3 %\"", "hardening",
+     "unknown key 'hardening'"},
     // wrong types
     {"end_time = \"40 ms\"", "end_time = true", "true",
      "end_time is true or false; expected a number in SI, or text ending in one of s, ms"},
@@ -299,7 +333,11 @@ const BadScene kBadScenes[] = {
     {"\"10 cm\"", "\"-10 cm\"", "\"-10 cm\"", "it must be more than 0"},
     {"radius = \"10 cm\"", "radius = nan", "nan", "it must be more than 0"},
     {"density = \"2700 kg/m3\"", "density = 0", "0\n\n[material.steel]", "it must be more than 0"},
-    {"restitution = 0.4", "restitution = 1.4", "1.4", "from 0.01 to 1"},
+    {"restitution = 0.4", "restitution = 1.4", "1.4", "from 0 to 1"},
+    {"restitution = 0.4", "restitution = -0.4", "-0.4", "from 0 to 1"},
+    {"friction = 0.5", "friction = -0.5", "-0.5", "0 or more"},
+    {"friction = 0.5", "friction = 0.5\nrolling_friction = -0.1", "-0.1", "0 or more"},
+    {"friction = 0.5", "friction = 0.5\nadhesion = \"1 J\"", "\"1 J\"", "J/m2, mJ/m2"},
     {"count = 12", "count = -12", "-12", "from 1 to"},
     {"axis = [0, 1, 0]\nradius", "axis = [0, 0, 0]\nradius", "[0, 0, 0]\nradius", "must point somewhere"},
     {"height = \"10 mm\"", "height = \"30 cm\"", "\"30 cm\"", "less than the shell's radius"},
@@ -324,6 +362,17 @@ const BadScene kBadScenes[] = {
 };
 
 INSTANTIATE_TEST_SUITE_P(SceneReader, RefusedScene, testing::ValuesIn(kBadScenes));
+
+TEST(SceneReader, RollingFrictionAndAdhesionOfAPair) {
+  const std::string text = with(with(drum_scene(), "friction = 0.5", "friction = 0.5\nrolling_friction = \"5 %\""),
+                                "friction = 0.3", "friction = 0.3\nadhesion = \"50 mJ/m2\"");
+  const dem_gpu::Scene scene = read_scene_text(text, "drum.toml", ".").scene;
+  EXPECT_DOUBLE_EQ(scene.contact[0][0].rolling_friction, 0.05);
+  EXPECT_DOUBLE_EQ(scene.contact[0][0].adhesion, 0);
+  EXPECT_DOUBLE_EQ(scene.contact[0][1].rolling_friction, 0.05) << "as [contact.default]";
+  EXPECT_DOUBLE_EQ(scene.contact[0][1].adhesion, 0.05);
+  EXPECT_FALSE(dem_gpu::has_adhesion(read_scene_text(drum_scene(), "drum.toml", ".").scene));
+}
 
 TEST(SceneReader, RefusesWallsOfOneName) {
   const std::string text = drum_scene() +

@@ -59,7 +59,7 @@ TEST(Units, EachAcceptedUnitIsParsed) {
   for (const Dimension dimension :
        {Dimension::length, Dimension::time, Dimension::mass, Dimension::speed, Dimension::acceleration,
         Dimension::angle, Dimension::angular_velocity, Dimension::density, Dimension::pressure,
-        Dimension::stiffness_volume, Dimension::stiffness_length, Dimension::ratio}) {
+        Dimension::stiffness_volume, Dimension::stiffness_length, Dimension::surface_energy, Dimension::ratio}) {
     std::string list = accepted_units(dimension) + ", ";
     EXPECT_GT(list.size(), 2u);
     for (std::size_t comma; (comma = list.find(", ")) != std::string::npos; list.erase(0, comma + 2))

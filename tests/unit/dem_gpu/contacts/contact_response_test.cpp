@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "dem_gpu/contacts/contact_response.h"
+#include "dem_gpu/contacts/friction/tangential_spring.h"
 
 #include <gtest/gtest.h>
 

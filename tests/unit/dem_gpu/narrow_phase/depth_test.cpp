@@ -12,6 +12,7 @@ namespace {
 using namespace test_support;
 using dem_gpu::axis_angle;
 using dem_gpu::DepthIntegrals;
+using HardeningIntegrals = dem_gpu::DepthIntegralsOf<dem_gpu::HardeningProfile>;
 
 /// Solid whose faces all touch one sphere about its centre: what lies deeper than t is the solid shrunk by 1 - t/r.
 struct Solid {
@@ -23,9 +24,11 @@ Solid cube_solid() { return {unit_cube(), 0.5}; }
 Solid tetrahedron_solid() { return {tetrahedron(1.5), 1.5 / (2 * std::sqrt(Real(3)))}; }
 Solid octahedron_solid() { return {octahedron(0.8), 0.8 / std::sqrt(Real(3))}; }
 
-/// U / k = integral over the overlap of depth_a + depth_b, as the sum over depth t of the volumes that lie deeper than
-/// t (Cavalieri): Gauss-Legendre points in panels. Uses overlap volumes only.
-Real energy(const PairIntegrals& pair, const Solid& solid_a, const Solid& solid_b, const Placed& a, const Placed& b) {
+/// U / k = integral over the overlap of psi_a + psi_b, psi = depth (1 + rate depth), as the sum over depth t of
+/// d psi / dt times the volumes that lie deeper than t (Cavalieri): Gauss-Legendre points in panels. Uses overlap
+/// volumes only.
+Real energy(const PairIntegrals& pair, const Solid& solid_a, const Solid& solid_b, const Placed& a, const Placed& b,
+            Real rate) {
   constexpr int kPanels = 200;
   constexpr Real kPoint = 0.7745966692414834;
   Real sum = 0;
@@ -33,9 +36,9 @@ Real energy(const PairIntegrals& pair, const Solid& solid_a, const Solid& solid_
     const Real panel = insphere / kPanels;
     for (int i = 0; i < kPanels; ++i) {
       const Real middle = (i + 0.5) * panel, half = panel / 2;
+      const auto slope_at = [&](Real t) { return (1 + 2 * rate * t) * volume_at(t); };
       sum += half *
-             (5 * volume_at(middle - kPoint * half) + 8 * volume_at(middle) + 5 * volume_at(middle + kPoint * half)) /
-             9;
+             (5 * slope_at(middle - kPoint * half) + 8 * slope_at(middle) + 5 * slope_at(middle + kPoint * half)) / 9;
     }
   };
   layers(solid_a.insphere, [&](Real t) {
@@ -47,14 +50,17 @@ Real energy(const PairIntegrals& pair, const Solid& solid_a, const Solid& solid_
   return sum;
 }
 
-void expect_gradient(const Solid& solid_a, const Solid& solid_b, const Placed& a, const Placed& b) {
+template <class Integrals>
+void expect_gradient(const Solid& solid_a, const Solid& solid_b, const Placed& a, const Placed& b,
+                     const Integrals& empty, Real rate) {
   const PairIntegrals pair({solid_a.part}, {solid_b.part});
-  const auto integrals = pair.of<DepthIntegrals>(a, b);
+  const auto integrals = pair.of<Integrals>(a, b, false, empty);
   ASSERT_GT(integrals.weight, 0);
   const Vec3 force = rotate(a.orientation, integrals.force), torque = rotate(a.orientation, integrals.moment);
   const Real h = 1e-4;
   const auto slope = [&](const auto& placed_at) {
-    return (energy(pair, solid_a, solid_b, placed_at(h), b) - energy(pair, solid_a, solid_b, placed_at(-h), b)) /
+    return (energy(pair, solid_a, solid_b, placed_at(h), b, rate) -
+            energy(pair, solid_a, solid_b, placed_at(-h), b, rate)) /
            (2 * h);
   };
   for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
@@ -63,6 +69,14 @@ void expect_gradient(const Solid& solid_a, const Solid& solid_b, const Placed& a
     EXPECT_NEAR(dot(force, axis), -shifted, 2e-6 * norm(force));
     EXPECT_NEAR(dot(torque, axis), -turned, 2e-6 * (norm(force) + norm(torque)));
   }
+}
+
+/// Of the linear law, and of one that hardens over a tenth of an edge.
+void expect_gradient(const Solid& solid_a, const Solid& solid_b, const Placed& a, const Placed& b) {
+  expect_gradient(solid_a, solid_b, a, b, DepthIntegrals{}, 0);
+  HardeningIntegrals hardening;
+  hardening.profile_a.rate = hardening.profile_b.rate = 10;
+  expect_gradient(solid_a, solid_b, a, b, hardening, 10);
 }
 
 TEST(DepthPotential, ForceAndTorqueAreTheGradientOfTheEnergy) {
@@ -91,16 +105,25 @@ TEST(DepthPotential, StiffnessIsTheSlopeOfTheForceAndDepthGoesAlongIt) {
                         {"edge on edge", edge_down(), other_edge, 2 * edge}};
   const PairIntegrals cubes({unit_cube()}, {unit_cube()});
   for (const Pose& pose : poses) {
-    const auto contact_at = [&](Real depth) {
-      const Placed a{{}, pose.a}, b{{0, 0, pose.touch - depth}, pose.b};
-      dem_gpu::ElasticContact contact;
-      EXPECT_TRUE(cubes.of<DepthIntegrals>(a, b).to_contact(dem_gpu::DepthPotential{1}, a.pose(), contact));
-      return contact;
-    };
-    const auto contact = contact_at(d);
-    const Real slope = (norm(contact_at(d + h).force) - norm(contact_at(d - h).force)) / (2 * h);
-    EXPECT_NEAR(contact.stiffness / slope, 1, 1e-4) << pose.name;
-    EXPECT_NEAR(contact.depth / d, 1, 2.5 * d) << pose.name;  // rims of the fields lean
+    for (const Real rate : {0.0, 100.0}) {
+      HardeningIntegrals empty;
+      empty.profile_a.rate = empty.profile_b.rate = rate;
+      const auto contact_at = [&](Real depth) {
+        const Placed a{{}, pose.a}, b{{0, 0, pose.touch - depth}, pose.b};
+        dem_gpu::ElasticContact contact, hardened;
+        EXPECT_TRUE(cubes.of<DepthIntegrals>(a, b).to_contact(dem_gpu::DepthPotential{1}, a.pose(), contact));
+        EXPECT_TRUE(cubes.of<HardeningIntegrals>(a, b, false, empty)
+                        .to_contact(dem_gpu::DepthPotential{1}, a.pose(), hardened));
+        if (rate == 0) {
+          EXPECT_EQ(hardened.force, contact.force) << "without hardening the linear law, to the bit";
+        }
+        return hardened;
+      };
+      const auto contact = contact_at(d);
+      const Real slope = (norm(contact_at(d + h).force) - norm(contact_at(d - h).force)) / (2 * h);
+      EXPECT_NEAR(contact.stiffness / slope, 1, 1e-4) << pose.name << ", rate " << rate;
+      EXPECT_NEAR(contact.depth / d, 1, 2.5 * d) << pose.name;  // rims of the fields lean
+    }
   }
 }
 
@@ -121,6 +144,32 @@ TEST(DepthPotential, FlatFaceOnFlatFace) {
     EXPECT_NEAR(integrals.weighted_point.x / integrals.weight, 0.2, 1e-12);
     EXPECT_NEAR(integrals.weighted_point.y / integrals.weight, -0.1, 1e-12);
   }
+}
+
+TEST(HardeningProfile, IntegralsOverATriangleAreExact) {
+  // Against Gauss-Legendre points of a square folded into the triangle (Duffy, SIAM J. Numer. Anal. 19 (1982)
+  // 1260-1262): exact for polynomials of this degree.
+  const dem_gpu::DepthTriangle t{{0.1, 0.2, 0.3}, {1.3, 0.1, -0.4}, {0.4, 1.1, 0.7}, 0.3, 0.01, 0.7, 0};
+  dem_gpu::DepthTriangle triangle = t;
+  triangle.area = norm(cross(t.b - t.a, t.c - t.a)) / 2;
+  const Real rate = 3;
+  const Real points[] = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
+  const Real weights[] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+  Real depth = 0, area = 0;
+  Vec3 moment;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const Real b = points[i], c = (1 - b) * points[j], a = 1 - b - c;
+      const Real weight = 2 * triangle.area * weights[i] * weights[j] * (1 - b);
+      const Real d = a * t.depth_a + b * t.depth_b + c * t.depth_c;
+      depth += weight * d * (1 + rate * d);
+      moment += (weight * d * (1 + rate * d)) * (a * t.a + b * t.b + c * t.c);
+      area += weight * (1 + 2 * rate * d);
+    }
+  const auto found = dem_gpu::HardeningProfile{rate}.integrate(triangle);
+  EXPECT_NEAR(found.depth, depth, 1e-14);
+  EXPECT_NEAR(norm(found.depth_moment - moment), 0, 1e-14);
+  EXPECT_NEAR(found.area, area, 1e-14);
 }
 
 TEST(DepthPotential, ReciprocalUnderExchange) {

@@ -5,11 +5,13 @@
 #include <numbers>
 
 #include "catalog/input_error.h"
-#include "tests/support/dem_scenes.h"
+#include "dem_gpu/shapes/least_width.h"
+#include "tests/support/dem_runs.h"
 
 namespace {
 
 using namespace test_support;
+using dem_gpu::least_width;
 using dem_gpu::polyhedral_shape;
 
 /// The message of the refusal, or "accepted".
@@ -248,6 +250,36 @@ TEST(TimeStep, IsAShareOfTheStiffestContact) {
   EXPECT_NEAR(time_step(scene), shortest_contact_time(scene) / 50, 1e-18);
   scene.run.time_step = 1e-6;
   EXPECT_EQ(time_step(scene), 1e-6);
+}
+
+TEST(TimeStep, CountsTheCornersThatBallsMeet) {
+  // A heavy ball on the corner of a square plate, across it: the plate gives way by turning about both its axes, so
+  // that the ball meets 1 / (1 + 3 a^2 / (a^2 + t^2) * 2) of its mass.
+  constexpr Real kEdge = 0.04, kThickness = 0.004, kStiffness = 1e5;
+  dem_gpu::Scene scene = empty_scene(1, 0);
+  scene.polyhedral_law = dem_gpu::DepthPotential{1e6};  // soft, so that the ball's contacts set the step
+  scene.sphere_law = dem_gpu::LinearSpring{kStiffness};
+  scene.materials.push_back({"lead", 2500e3});
+  scene.contact.assign(2, {{1, 0}, {1, 0}});
+  scene.shapes = {box_shape({kEdge, kEdge, kThickness}), dem_gpu::sphere_shape("ball", 0.01)};
+  scene.bodies = {body_at(0, {}), body_at(1, {kEdge / 2 - 1e-4, kEdge / 2 - 1e-4, 0.0125}, {}, {0, 0, -0.1})};
+  scene.bodies[1].material = 1;
+  const Real share = 1 / (1 + 6 * kEdge * kEdge / (kEdge * kEdge + kThickness * kThickness));
+  const Real mass = 2500 * kEdge * kEdge * kThickness;
+  EXPECT_NEAR(shortest_contact_time(scene), std::numbers::pi * std::sqrt(share * mass / kStiffness), 1e-12);
+  dem_gpu::Simulation simulation(scene);
+  run_impact(simulation);
+  // The corner itself, 0.1 mm further out, is met by nothing flatter than a sphere's edge; the ball's own mass adds
+  // 1e-3.
+  EXPECT_GE(simulation.quality().smallest_steps_per_contact, 20);
+  EXPECT_LE(simulation.quality().smallest_steps_per_contact, 20.5);
+}
+
+TEST(LeastWidth, IsThatOfBoxesSpheresAndTetrahedra) {
+  EXPECT_EQ(least_width(dem_gpu::sphere_shape("ball", 0.3)), 0.6);
+  EXPECT_NEAR(least_width(box_shape({0.1, 0.02, 0.3}, {2, 1, 3})), 0.02, 1e-15);
+  // Height of the regular tetrahedron of edge sqrt 2; its least width, between two edges, is 1 = sqrt(3/4) of it.
+  EXPECT_NEAR(least_width(dem_gpu::polyhedral_shape("tetrahedron", {tetrahedron()})), 2 / std::sqrt(Real(3)), 1e-12);
 }
 
 }  // namespace

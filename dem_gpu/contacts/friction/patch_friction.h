@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem_gpu/contacts/contact_columns.h"
+#include "dem_gpu/contacts/contact_patch.h"
+#include "dem_gpu/contacts/friction/friction_contact.h"
+
+namespace dem_gpu {
+
+/// The springs of a polyhedral contact, world frame: one against slip, one against spin. With T the patch's normals and
+/// P = I - T:
+///   slip' = P v     force  = -k P slip          spin' = r T omega     couple = -k r T spin
+/// so that the stored energy k/2 (|slip|^2 + |spin|^2) grows by the springs' work and nothing else: neither a patch
+/// that changes shape or turns, nor a load that comes and goes, adds energy or lets a stuck contact creep.
+struct PatchSprings {
+  Vec3 slip, spin;  // [m]
+
+  TALUS_HD Real squared(Real spin_share) const {
+    return norm_squared(slip) + norm_squared(spin) / (spin_share * spin_share);
+  }
+  TALUS_HD void scale(Real factor) {
+    slip *= factor;
+    spin *= factor;
+  }
+  /// Follows the contact: the turn that takes the last normal to this one, and the bodies' mean spin about it.
+  TALUS_HD void turn(const Vec3& last_normal, const Vec3& normal, Real angle) {
+    // A normal that jumps is not one plane turning (a slot, where the force may point either way).
+    constexpr Real kLeastCosine = Real(0.5);
+    const Real cosine = dot(last_normal, normal);
+    const bool is_turn = cosine > kLeastCosine;
+    const Vec3 axis = is_turn ? cross(last_normal, normal) : Vec3{};
+    const Real tilt = is_turn ? 1 / (1 + cosine) : 0;
+    const Vec3 half = (angle / 2) * normal;  // Cayley's rotation
+    const Real share = 2 / (1 + norm_squared(half));
+    const auto turned = [&](const Vec3& v) {
+      const Vec3 tilted = v + cross(axis, v) + tilt * cross(axis, cross(axis, v));
+      const Vec3 once = cross(half, tilted);
+      return tilted + share * (once + cross(half, once));
+    };
+    slip = turned(slip);
+    spin = turned(spin);
+  }
+};
+
+/// Coulomb friction of a contact of polyhedra from its patch: a force at the contact point and a couple about the
+/// patch's normals, under one limit (|force| / mu N)^2 + (|couple| / c mu N r)^2 <= 1. (A convex limit surface for a
+/// patch in planar motion: Goyal, Ruina & Papadopoulos, Wear 143 (1991) 307-330; its ellipsoid: Howe & Cutkosky, Int.
+/// J. Robot. Res. 15 (1996) 557-572.)
+struct PatchFriction {
+  static constexpr bool kEnabled = true;
+  static constexpr bool kHasCouple = true;
+  using Patch = ContactPatch;
+  /// c: couple at which an evenly loaded square spins, over mu N r. 0.3826 L of the integral of |x| over L / sqrt(6);
+  /// a line: 0.87, a disc: 0.94.
+  static constexpr Real kSpinShare = Real(0.93);
+
+  Real tangential_stiffness_ratio;  // tangential over normal stiffness [-]
+
+  TALUS_HD FrictionForces apply(const ContactView& contacts, int c, const FrictionContact& contact,
+                                const ContactPatch& patch) const {
+    const Vec3 normal = contact.elastic.normal;
+    // The same at every load and for every patch of a pair: a spring that softens with the load would not return what
+    // it took. The area is that of a flat face as large as the body.
+    const Real stiffness = tangential_stiffness_ratio * patch.stiffness_per_area * contact.diameter * contact.diameter;
+    const Real limit =
+        contact.pair.friction_coefficient * std::max(patch.load + contact.damping, Real(0)) / stiffness;  // [m]
+    PatchSprings springs{contacts.tangential_displacement[c], contacts.turning_displacement[c]};
+    springs.turn(contacts.spring_normal[c], normal, contact.time_step * dot(contact.mean_spin, normal));
+    springs.slip += contact.time_step * patch.slip(contact.mean.velocity);
+    springs.spin += (contact.time_step * patch.lever) * patch.spin(contact.mean.angular_velocity);
+    const Real stretch = std::sqrt(springs.squared(kSpinShare));
+    if (stretch > limit) springs.scale(limit / stretch);
+    contacts.tangential_displacement[c] = springs.slip;
+    contacts.turning_displacement[c] = springs.spin;
+    contacts.spring_normal[c] = normal;
+
+    const Real damping = 2 * contact.pair.damping.ratio[0] * std::sqrt(contact.effective_mass / stiffness);  // [s]
+    PatchSprings rate{damping * patch.slip(contact.predicted.velocity),
+                      (damping * patch.lever) * patch.spin(contact.predicted.angular_velocity)};
+    rate.scale(share_within(limit, springs, rate));
+    FrictionForces friction;
+    friction.force = -stiffness * patch.slip(springs.slip + rate.slip);
+    friction.couple = (-stiffness * patch.lever) * patch.spin(springs.spin + rate.spin);
+    friction.energy = Real(0.5) * stiffness * (norm_squared(springs.slip) + norm_squared(springs.spin));
+    return friction;
+  }
+
+  TALUS_HD static void forget(const ContactView& contacts, int c) {
+    contacts.tangential_displacement[c] = contacts.turning_displacement[c] = contacts.spring_normal[c] = Vec3{};
+  }
+
+ private:
+  /// Largest share, up to 1, of `rate` that keeps springs + share rate within the limit. All in metres of spring.
+  TALUS_HD static Real share_within(Real limit, const PatchSprings& springs, const PatchSprings& rate) {
+    const Real room = std::max(limit * limit - springs.squared(kSpinShare), Real(0)), square = rate.squared(kSpinShare);
+    const Real half = dot(springs.slip, rate.slip) + dot(springs.spin, rate.spin) / (kSpinShare * kSpinShare);
+    if (square + 2 * half <= room) return 1;
+    return (std::sqrt(half * half + square * room) - half) / square;
+  }
+};
+
+}  // namespace dem_gpu

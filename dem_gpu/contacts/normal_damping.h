@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem_gpu/contacts/contact_columns.h"
+#include "dem_gpu/contacts/elastic_contact.h"
+#include "dem_gpu/contacts/friction/friction_contact.h"
+#include "dem_gpu/contacts/normal_orbit.h"
+
+namespace dem_gpu {
+
+// A damping policy completes the elastic normal force so that the restitution asked for comes out:
+//   apply(contacts, c, elastic, impact)   damping force, positive when repulsive [N]; may refine the elastic force
+//   forget(contacts, c)                   ends its history
+
+/// What a damping policy sees of a touching contact besides the elastic force.
+struct NormalImpact {
+  const PairProperties& pair;
+  Real effective_mass;   // that an impulse along the normal meets [kg]
+  Real mean_speed;       // of approach over the step that ends now [m/s]
+  Real predicted_speed;  // of approach at its end, the forces of its beginning taken as constant [m/s]
+  Real turning;          // acceleration of approach as the normal turns under sliding centres [m/s2]
+  Real time_step;        // [s]
+};
+
+/// Dashpot evaluated once a step. The whole normal force never pulls.
+struct PointDamping {
+  TALUS_HD static Real apply(const ContactView&, int, ElasticContact& elastic, const NormalImpact& impact) {
+    const Real force = norm(elastic.force);
+    const Real exponent = elastic.stiffness * elastic.depth / force;
+    const Real coefficient =
+        2 * impact.pair.damping.at(exponent) * std::sqrt(impact.effective_mass * elastic.stiffness);
+    return std::max(coefficient * impact.predicted_speed, -force);
+  }
+  TALUS_HD static void forget(const ContactView&, int) {}
+};
+
+/// The same dashpot for the power law F ~ depth^n of a sphere law, integrated within the step: restitution does not
+/// depend on the step, nor on where in a step the spheres touch. Velocity Verlet gets the mean force that takes the
+/// pair to where its orbit ends.
+template <class Law>
+struct OrbitDamping {
+  TALUS_HD static Real apply(const ContactView& contacts, int c, ElasticContact& elastic, const NormalImpact& impact) {
+    const Real mass = impact.effective_mass, step = impact.time_step;
+    if (!(step > 0)) return 0;  // forces of a start, before any step: the elastic one alone
+    const Real force = -dot(elastic.force, elastic.normal);
+    const Real rate = std::sqrt(elastic.stiffness / mass), damping = 2 * impact.pair.sphere_damping * rate;
+    const NormalAcceleration law{elastic.depth, (force + elastic.adhesion) / mass, damping, elastic.adhesion / mass,
+                                 Law::kExponent > 1};
+    const Real owed = contacts.owed_kick[c];
+    const bool is_first = contacts.depth[c] == 0 && elastic.depth <= kTouchMargin * step * impact.mean_speed;
+    Real by_others = 0;
+    if (!is_first) {
+      const Real contact_before = -dot(contacts.force[c], elastic.normal) / mass;
+      by_others = 2 * (impact.predicted_speed - impact.mean_speed) / step + contact_before;
+    }
+    NormalOrbit orbit{law, elastic.depth, impact.mean_speed + step / 2 * by_others - owed, by_others + impact.turning};
+    Real duration = step;
+    if (is_first) duration += orbit.back_to_touch(step);
+    orbit.advance(duration, substeps((rate + damping) * duration, is_first), is_first);
+    const Real kick = orbit.has_parted ? orbit.kick : orbit.shift / step;
+    contacts.owed_kick[c] = orbit.kick - kick;
+    const Real total = mass * (owed + kick) / step;
+    if (damping > 0) return total - force;
+    elastic.force = -total * elastic.normal;  // without a dashpot all of it is elastic
+    return 0;
+  }
+
+  TALUS_HD static void forget(const ContactView& contacts, int c) { contacts.owed_kick[c] = 0; }
+
+ private:
+  /// `progress`: duration times the rates of the motion [-].
+  TALUS_HD static int substeps(Real progress, bool is_first) {
+    const int needed = static_cast<int>(std::ceil(progress / kProgressPerSubstep));
+    return std::min(std::max(needed, is_first ? kFirstSubsteps : 1), kMostSubsteps);
+  }
+
+  /// Share of 1 / (rates) that a sub-step spans: restitution is then right to 1e-5 at 20 steps a contact.
+  static constexpr Real kProgressPerSubstep = 0.1;
+  static constexpr int kFirstSubsteps = 6;
+  static constexpr int kMostSubsteps = 512;
+  /// Above 1 by the turn of the normal during a step: bodies that touch deeper than they came were placed so.
+  static constexpr Real kTouchMargin = Real(1.1);
+};
+
+}  // namespace dem_gpu

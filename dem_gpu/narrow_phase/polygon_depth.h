@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+
+#include "dem_gpu/narrow_phase/depth_profile.h"
+#include "dem_gpu/narrow_phase/near_depth.h"
+#include "dem_gpu/narrow_phase/patch_sums.h"
+#include "dem_gpu/narrow_phase/polygon.h"
+
+namespace dem_gpu {
+
+/// Integrals of a depth field over one polygon, in the polygon's frame. With psi the profile of the depth (the depth
+/// itself where the law is linear):
+template <class Profile>
+struct PolygonDepthOf {
+  static constexpr bool kHasPatch = false;
+
+  Profile profile{};
+
+  Real depth = 0;             // integral of psi dA [m3]
+  Vec3 depth_moment;          // integral of x psi dA [m4]
+  Vec3 descent;               // integral of minus the gradient of psi dA [m2]
+  Real area = 0;              // integral of d psi / d depth dA [m2]
+  Real largest = 0;           // largest depth at a corner [m]
+  bool is_truncated = false;  // a corner of a piece did not fit
+};
+using PolygonDepth = PolygonDepthOf<LinearProfile>;
+
+/// With what friction needs.
+template <class Profile>
+struct PolygonPatchDepthOf : PolygonDepthOf<Profile> {
+  static constexpr bool kHasPatch = true;
+
+  Real aligned = 0;        // the share of psi dA that meets the field at right angles [m3]
+  Real second_moment = 0;  // integral of psi |x|^2 dA [m5]
+};
+
+/// Adds a polygon on which the depth is linear: closed form over the triangles of its fan.
+template <class Sum>
+TALUS_HD void add_linear_depth(const Polygon& polygon, const HalfSpace& plane, const Vec3& normal, Sum& sum) {
+  [[maybe_unused]] const Real depth_before = sum.depth;
+  DepthTriangle triangle;
+  triangle.a = polygon.corner[0];
+  triangle.depth_a = depth_below(plane, triangle.a);
+  triangle.b = polygon.corner[1];
+  triangle.depth_b = depth_below(plane, triangle.b);
+  sum.largest = std::max(sum.largest, std::max(triangle.depth_a, triangle.depth_b));
+  for (int c = 2; c < polygon.count; ++c) {
+    triangle.c = polygon.corner[c];
+    triangle.depth_c = depth_below(plane, triangle.c);
+    triangle.area = Real(0.5) * dot(cross(triangle.b - triangle.a, triangle.c - triangle.a), normal);
+    const TriangleIntegrals integrals = sum.profile.integrate(triangle);
+    sum.area += integrals.area;
+    sum.descent += integrals.area * plane.normal;
+    sum.depth += integrals.depth;
+    sum.depth_moment += integrals.depth_moment;
+    sum.largest = std::max(sum.largest, triangle.depth_c);
+    if constexpr (Sum::kHasPatch) sum.second_moment += sum.profile.second_moment(triangle);
+    triangle.b = triangle.c;
+    triangle.depth_b = triangle.depth_c;
+  }
+  if constexpr (Sum::kHasPatch) sum.aligned += aligned_share(-dot(normal, plane.normal)) * (sum.depth - depth_before);
+}
+
+/// A polygon cut down step by step, between two buffers.
+struct ShrinkingPolygon {
+  const Polygon* piece;  // null once nothing is left
+  Polygon* buffer;       // two
+  int next = 0;
+
+  /// Keeps what lies in the cell. A piece wholly on the cell's boundary stays only if `owns_ties`.
+  TALUS_HD void keep(const HalfSpace& cell, bool owns_ties) {
+    bool all_inside = true, all_outside = true;
+    for (int c = 0; c < piece->count; ++c) {
+      const Real margin = depth_below(cell, piece->corner[c]);
+      if (margin < 0) all_inside = false;
+      if (margin > 0 || (margin == 0 && owns_ties)) all_outside = false;
+    }
+    if (all_outside) {
+      piece = nullptr;
+    } else if (!all_inside) {
+      clip(*piece, cell, buffer[next]);
+      piece = buffer[next].count > 0 ? &buffer[next] : nullptr;
+      next = 1 - next;
+    }
+  }
+};
+
+/// Planes that a depth field may have near one polygon, those of terms that are one plane there among them; and terms
+/// that are not, with their planes.
+inline constexpr int kMostPlanesOnPolygon = NearDepth::kMostPlanes + 64;
+inline constexpr int kMostTermsOnPolygon = 48, kMostTermPlanesOnPolygon = 160;
+
+/// Where the depth below `low` is at most that below `high`.
+TALUS_HD inline HalfSpace lower_side(const HalfSpace& low, const HalfSpace& high) {
+  return {high.normal - low.normal, high.offset - low.offset};
+}
+
+/// Cuts a polygon into the pieces on which each of `planes` is the one it lies least deep below: visitor(piece, plane).
+/// One piece where one plane is least at all corners. The lower index owns a tie.
+template <class Visitor>
+TALUS_HD void visit_least_depth(const Polygon& polygon, const HalfSpace* planes, int plane_count, Visitor&& visitor) {
+  // A plane is no candidate if another one is below it at every corner: it suffices to compare with the plane whose
+  // largest depth is least.
+  constexpr int kLargest = kMostPlanesOnPolygon;
+  ScratchArray<Real, kLargest> smallest;
+  ScratchArray<std::int16_t, kLargest> candidate;
+  Real least_largest = std::numeric_limits<Real>::max();
+  int flattest = 0;
+  for (int i = 0; i < plane_count; ++i) {
+    Real low = depth_below(planes[i], polygon.corner[0]), high = low;
+    for (int c = 1; c < polygon.count; ++c) {
+      const Real depth = depth_below(planes[i], polygon.corner[c]);
+      low = depth < low ? depth : low;
+      high = depth > high ? depth : high;
+    }
+    smallest[i] = low;
+    if (high < least_largest) least_largest = high, flattest = i;
+  }
+  int count = 0;
+  for (int i = 0; i < plane_count; ++i)
+    if (i == flattest || smallest[i] < least_largest) candidate[count++] = static_cast<std::int16_t>(i);
+  if (count == 1) {
+    visitor(polygon, planes[candidate[0]]);
+    return;
+  }
+  Polygon buffer[2];
+  for (int k = 0; k < count; ++k) {
+    const HalfSpace own = planes[candidate[k]];
+    ShrinkingPolygon cell{&polygon, buffer};
+    for (int m = 0; m < count && cell.piece; ++m)
+      if (m != k) cell.keep(lower_side(own, planes[candidate[m]]), k < m);
+    if (cell.piece) visitor(*cell.piece, own);
+  }
+}
+
+/// Adds the least depth below `planes` over a polygon.
+template <class Sum>
+TALUS_HD void add_least_depth(const Polygon& polygon, const HalfSpace* planes, int plane_count, const Vec3& normal,
+                              Sum& sum) {
+  visit_least_depth(polygon, planes, plane_count, [&](const Polygon& piece, const HalfSpace& plane) {
+    if (piece.is_truncated) sum.is_truncated = true;
+    add_linear_depth(piece, plane, normal, sum);
+  });
+}
+
+/// A depth field over one polygon: its planes, and the terms that change from one of their planes to another there.
+struct FieldOnPolygon {
+  ScratchArray<HalfSpace, kMostPlanesOnPolygon> plane;  // room for one a term at the end
+  int plane_count = 0;
+  ScratchArray<DepthTerm, kMostTermsOnPolygon> term;
+  int term_count = 0;
+  ScratchArray<HalfSpace, kMostTermPlanesOnPolygon> term_plane;
+  bool is_truncated = false;
+
+  TALUS_HD FieldOnPolygon(const Polygon& polygon, const DepthField& field) {
+    const Ball ball = ball_about(polygon);
+    const Real limit = greatest_possible(ball, field);
+    for (int i = 0; i < field.plane_count; ++i)
+      if (depth_below(field.planes[i], ball.centre) - ball.radius <= limit) plane[plane_count++] = field.planes[i];
+    int used = 0;
+    for (int t = 0; t < field.term_count && !is_truncated; ++t) {
+      const int count = field.terms[t].count;
+      if (!is_within(field, t, ball.centre, ball.radius, limit)) continue;
+      is_truncated = plane_count + term_count + 1 > kMostPlanesOnPolygon || term_count == kMostTermsOnPolygon ||
+                     used + count > kMostTermPlanesOnPolygon;
+      if (!is_truncated) used += add_term(polygon, field.term_planes + field.terms[t].first, count, used);
+    }
+  }
+
+ private:
+  struct Ball {
+    Vec3 centre;
+    Real radius;
+  };
+  TALUS_HD static Ball ball_about(const Polygon& polygon) {
+    Vec3 sum;
+    for (int c = 0; c < polygon.count; ++c) sum += polygon.corner[c];
+    const Vec3 centre = sum / static_cast<Real>(polygon.count);
+    Real square = 0;
+    for (int c = 0; c < polygon.count; ++c) square = std::max(square, norm_squared(polygon.corner[c] - centre));
+    return {centre, std::sqrt(square)};
+  }
+
+  /// Deeper than this the field is nowhere in the ball: every depth changes by at most the distance.
+  TALUS_HD static Real greatest_possible(const Ball& ball, const DepthField& field) {
+    Real limit = std::numeric_limits<Real>::max();
+    for (int i = 0; i < field.plane_count; ++i) limit = std::min(limit, depth_below(field.planes[i], ball.centre));
+    for (int t = 0; t < field.term_count; ++t) {
+      const HalfSpace* planes = field.term_planes + field.terms[t].first;
+      Real depth = depth_below(planes[0], ball.centre);
+      for (int i = 1; i < field.terms[t].count && depth < limit; ++i)
+        depth = std::max(depth, depth_below(planes[i], ball.centre));
+      limit = std::min(limit, depth);
+    }
+    return limit + ball.radius;
+  }
+
+  /// True if plane k is nowhere on the polygon the greatest of the term; of equal ones the lowest index stays.
+  TALUS_HD static bool is_outdone(const Polygon& polygon, const HalfSpace* planes, int count, int k) {
+    for (int i = 0; i < count; ++i) {
+      if (i == k) continue;
+      bool is_deeper = true;
+      for (int c = 0; c < polygon.count && is_deeper; ++c) {
+        const Real own = depth_below(planes[k], polygon.corner[c]), other = depth_below(planes[i], polygon.corner[c]);
+        is_deeper = i < k ? other >= own : other > own;
+      }
+      if (is_deeper) return true;
+    }
+    return false;
+  }
+
+  /// Returns how many term planes were taken up.
+  TALUS_HD int add_term(const Polygon& polygon, const HalfSpace* planes, int count, int first) {
+    int kept = 0;
+    for (int k = 0; k < count; ++k)
+      if (!is_outdone(polygon, planes, count, k)) term_plane[first + kept++] = planes[k];
+    if (kept == 1) {
+      plane[plane_count++] = term_plane[first];
+      return 0;
+    }
+    term[term_count++] = {first, kept};
+    return kept;
+  }
+};
+
+/// Integrates a depth field over a polygon. Where terms change over between their planes the polygon is cut into the
+/// convex pieces on which each term is one plane: every choice of one plane a term is tried, dropping all choices that
+/// begin with one whose piece is empty.
+template <class Sum, class Profile>
+TALUS_HD Sum integrate_depth(const Polygon& polygon, const DepthField& field, const Vec3& normal,
+                             const Profile& profile) {
+  Sum sum;
+  sum.profile = profile;
+  if (field.term_count == 0) {
+    add_least_depth(polygon, field.planes, field.plane_count, normal, sum);
+    return sum;
+  }
+  FieldOnPolygon here(polygon, field);
+  sum.is_truncated = here.is_truncated;
+  ScratchArray<std::uint8_t, kMostTermsOnPolygon> choice;
+  for (int t = 0; t < here.term_count; ++t) choice[t] = 0;
+  Polygon buffer[2];
+  while (true) {
+    ShrinkingPolygon shrinking{&polygon, buffer};
+    int level = 0;
+    for (; level < here.term_count; ++level) {
+      const HalfSpace* planes = here.term_plane.data() + here.term[level].first;
+      const int chosen = choice[level];
+      for (int k = 0; k < here.term[level].count && shrinking.piece; ++k)
+        if (k != chosen) shrinking.keep(lower_side(planes[k], planes[chosen]), chosen < k);
+      if (!shrinking.piece) break;
+      here.plane[here.plane_count + level] = planes[chosen];
+    }
+    if (shrinking.piece) {
+      if (shrinking.piece->is_truncated) sum.is_truncated = true;
+      add_least_depth(*shrinking.piece, here.plane.data(), here.plane_count + here.term_count, normal, sum);
+      level = here.term_count - 1;
+    }
+    while (level >= 0 && ++choice[level] == here.term[level].count) choice[level--] = 0;
+    if (level < 0) return sum;
+  }
+}
+
+}  // namespace dem_gpu

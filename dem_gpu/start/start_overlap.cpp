@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "dem_gpu/start/start_overlap.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "catalog/input_error.h"
+#include "dem_gpu/overlap_probe.h"
+
+namespace dem_gpu {
+namespace {
+
+/// Shallower overlaps are rounding of faces that touch, and hold no energy to speak of: its share of a contact's goes
+/// with the square of this. In least widths.
+constexpr Real kLeastDepth = Real(1e-9);
+
+/// Two bodies, or a body and a wall, of the scene.
+struct StartPair {
+  ContactKind kind;
+  int a, b;
+
+  bool has_wall() const { return is_wall_kind(kind); }
+};
+
+StartPair pair_of(ContactKey key) { return {key_kind(key), key_body_a(key), key_body_b(key)}; }
+
+std::string name_of_partner(const Scene& scene, const StartPair& pair) {
+  return pair.has_wall() ? "wall '" + scene.walls[pair.b].name + "'" : "body " + std::to_string(pair.b);
+}
+
+[[noreturn]] void refuse(const Scene& scene, const StartPair& pair, const std::string& overlap) {
+  throw catalog::InputError("body " + std::to_string(pair.a) + " and " + name_of_partner(scene, pair) +
+                            " overlap at the start by " + overlap +
+                            "; move them apart, or raise the largest start overlap (run.largest_start_overlap) if they "
+                            "are meant to spring apart");
+}
+
+/// Bodies with one and the same middle push each other nowhere, so no contact shows them.
+void refuse_concentric(const Model& model, const StartPair& pair) {
+  const Scene& scene = model.scene;
+  const Body &a = scene.bodies[pair.a], &b = scene.bodies[pair.b];
+  const Shape &shape_a = scene.shapes[a.shape], &shape_b = scene.shapes[b.shape];
+  const OverlapProbe probe(shape_a, shape_b, scene.polyhedral_law);
+  const Real volume =
+      probe
+          .overlap({{a.position, normalized(a.orientation), a.scale}, {b.position, normalized(b.orientation), b.scale}})
+          .volume;
+  const Real smaller =
+      std::min(shape_a.volume * a.scale * a.scale * a.scale, shape_b.volume * b.scale * b.scale * b.scale);
+  if (volume <= scene.run.largest_start_overlap * smaller) return;
+  char text[96];
+  std::snprintf(text, sizeof text, "%.3g %% of the smaller body's volume, one about the other's middle",
+                double(100 * volume / smaller));
+  refuse(scene, pair, text);
+}
+
+/// The pair alone, at rest, without gravity, damping and friction; b, or the wall, stays and a is moved by `shift`.
+Scene scene_of(const Scene& scene, const StartPair& pair, const Vec3& shift) {
+  Scene alone;
+  alone.name = scene.name;
+  alone.gravity = {};
+  alone.materials = scene.materials;
+  const std::size_t n = scene.materials.size();
+  alone.contact.assign(n, std::vector<ContactProperties>(n, {1, 0}));
+  alone.polyhedral_law = scene.polyhedral_law;
+  alone.sphere_law = scene.sphere_law;
+  alone.friction = std::nullopt;
+  alone.energy_ledger = false;
+  alone.run.largest_start_overlap = std::numeric_limits<Real>::max();
+  const auto add = [&](const Body& body, const Vec3& moved_by) {
+    alone.shapes.push_back(scene.shapes[body.shape]);
+    Body copy = body;
+    copy.shape = static_cast<int>(alone.shapes.size()) - 1;
+    copy.position += moved_by;
+    copy.velocity = copy.angular_velocity = {};
+    copy.is_fixed = false;
+    alone.bodies.push_back(copy);
+  };
+  add(scene.bodies[pair.a], shift);
+  if (pair.has_wall())
+    alone.walls.push_back(scene.walls[pair.b]);
+  else
+    add(scene.bodies[pair.b], {});
+  return alone;
+}
+
+/// Elastic force on a, moved by `shift` [N]; zero where the two do not touch.
+Vec3 force_at(const Scene& scene, const StartPair& pair, const Vec3& shift) {
+  const Snapshot snapshot = Simulation(scene_of(scene, pair, shift)).snapshot();
+  Vec3 force;
+  for (const SnapshotContact& contact : snapshot.contacts)
+    force += (contact.body_a == 0 ? Real(1) : Real(-1)) * contact.force;
+  return force;
+}
+
+/// Work of the contact on a as a is drawn away along the force at the start [J]: the energy stored, for a law that is a
+/// gradient.
+Real stored_energy(const Scene& scene, const StartPair& pair, const Vec3& force, Real depth) {
+  const Vec3 away = unit_or(force, {0, 0, 1});
+  Real touching = 0, apart = depth;
+  while (norm(force_at(scene, pair, apart * away)) > 0) touching = std::exchange(apart, 2 * apart);
+  constexpr int kHalvings = 6;
+  for (int i = 0; i < kHalvings; ++i) {
+    const Real middle = (touching + apart) / 2;
+    (norm(force_at(scene, pair, middle * away)) > 0 ? touching : apart) = middle;
+  }
+  // Gauss-Legendre, 4 points a panel. A way out that is long against the depth crosses more than one contact.
+  constexpr std::array<Real, 4> kPoint{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                       0.8611363115940526};
+  constexpr std::array<Real, 4> kWeight{0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538};
+  constexpr Real kFewestPanels = 8, kMostPanels = 64;
+  const int panels = static_cast<int>(std::clamp(4 * apart / depth, kFewestPanels, kMostPanels));
+  Real work = 0;
+  for (int panel = 0; panel < panels; ++panel)
+    for (std::size_t i = 0; i < kPoint.size(); ++i) {
+      const Real place = apart * (panel + (1 + kPoint[i]) / 2) / panels;
+      work += kWeight[i] * apart / (2 * panels) * dot(force_at(scene, pair, place * away), away);
+    }
+  return work;
+}
+
+}  // namespace
+
+void refuse_deep_start(const Model& model, const State& state) {
+  const Scene& scene = model.scene;
+  const auto keys = to_host(state.contacts.key);
+  const auto depth = to_host(state.contacts.depth);
+  const auto width = to_host(model.bodies.least_width);
+  for (std::size_t c = 0; c < keys.size(); ++c) {
+    const StartPair pair = pair_of(keys[c]);
+    const Real thinner = pair.has_wall() ? width[pair.a] : std::min(width[pair.a], width[pair.b]);
+    if (depth[c] > scene.run.largest_start_overlap * thinner) {
+      char text[96];
+      std::snprintf(text, sizeof text, "%.4g m, %.3g %% of the thinner body's least width (at most %.3g %%)",
+                    double(depth[c]), double(100 * depth[c] / thinner), double(100 * scene.run.largest_start_overlap));
+      refuse(scene, pair, text);
+    }
+    if (depth[c] == 0 && pair.kind == ContactKind::polyhedron_polyhedron &&
+        norm(scene.bodies[pair.a].position - scene.bodies[pair.b].position) < thinner / 2)
+      refuse_concentric(model, pair);
+  }
+}
+
+void refuse_fast_walls(const Model& model, const State& state) {
+  Real full_speed_from = 0;
+  for (const Wall& wall : model.scene.walls)
+    full_speed_from = std::max(full_speed_from, wall.motion.start_time + wall.motion.ramp_time);
+  const Real travel = state.walls.largest_displacement(full_speed_from, full_speed_from + model.time_step);
+  const auto width = to_host(model.bodies.least_width);
+  const auto thinnest = std::min_element(width.begin(), width.end());
+  if (travel <= kTravelShare * *thinnest) return;
+  char text[320];
+  std::snprintf(text, sizeof text,
+                "walls: the fastest moves %.4g m in a step of %.4g s, more than a quarter of the least width of body "
+                "%td (%.4g m), so that it could pass through it; use a time step of at most %.3g s, or a slower motion",
+                double(travel), double(model.time_step), thinnest - width.begin(), double(*thinnest),
+                double(kTravelShare * *thinnest / travel * model.time_step));
+  throw catalog::InputError(text);
+}
+
+Real book_start_energy(const Model& model, State& state) {
+  const auto keys = to_host(state.contacts.key);
+  const auto depth = to_host(state.contacts.depth);
+  const auto force = to_host(state.contacts.force);
+  const auto width = to_host(model.bodies.least_width);
+  auto stored = to_host(state.contacts.elastic_work);
+  Real sum = 0;
+  for (std::size_t c = 0; c < keys.size(); ++c) {
+    if (!(depth[c] > kLeastDepth * width[key_body_a(keys[c])])) continue;
+    stored[c] = stored_energy(model.scene, pair_of(keys[c]), force[c], depth[c]);
+    sum += stored[c];
+  }
+  assign(state.contacts.elastic_work, stored);
+  return sum;
+}
+
+}  // namespace dem_gpu

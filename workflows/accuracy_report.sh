@@ -1,0 +1,61 @@
+#!/bin/sh
+# SPDX-License-Identifier: Apache-2.0
+# Writes docs/accuracy.md and its plots: the tables of the validation tests and of the benches, each under the command
+# that makes it.
+#   workflows/accuracy_report.sh BUILD [BUILD_MIXED]
+# BUILD, BUILD_MIXED: build folders of the double and the mixed precision engine with their tests. BENCHES names the
+# benches to run (default: all).
+set -eu
+
+build=${1:?usage: workflows/accuracy_report.sh BUILD [BUILD_MIXED]}
+mixed=${2:-}
+page=docs/accuracy.md
+plots=docs/results/plots
+talus="$build/bin/talus"
+[ -x "$talus" ] || { echo "accuracy_report: no $talus; build first: make build" >&2; exit 2; }
+: "${BENCHES:=$("$talus" bench --list | sed -n 's/^\([a-z_]*\):.*/\1/p')}"
+
+mkdir -p "$plots"
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+# Tables of the validation tests of a build folder; a failing test is named.
+validation_tables() {
+  ctest --test-dir "$1" -L validation --verbose --output-log "$work/log" >/dev/null || true
+  echo "    ctest --test-dir $1 -L validation --verbose"
+  sed -n 's/^[0-9]*: \(### .*\)$/\n\1\n/p; s/^[0-9]*: \(|.*\)$/\1/p' "$work/log"
+  echo
+  sed -n '/tests passed/p; /(Failed)/p; /(Timeout)/p' "$work/log"
+}
+
+{
+  echo "# Accuracy"
+  echo
+  echo "Written by \`make accuracy\` on $(date -u +%Y-%m-%d), commit $(git rev-parse --short HEAD)," \
+       "$(nproc) cores of $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1). A figure of the validation tests" \
+       "is the same on every machine; wall times are not."
+  echo
+  echo "## Validation, double precision"
+  echo
+  validation_tables "$build"
+  if [ -n "$mixed" ]; then
+    echo
+    echo "## Validation, mixed precision"
+    echo
+    validation_tables "$mixed"
+  fi
+  echo
+  echo "## Speed against error"
+  for bench in $BENCHES; do
+    echo "accuracy_report: talus bench $bench" >&2
+    "$talus" bench "$bench" --json "$work/$bench.json" --out "$plots" >/dev/null || [ $? = 4 ]
+    echo
+    sed 's/^# /### /' "$plots/$bench.md"
+    rm "$plots/$bench.md"
+    for plot in "$plots/${bench}"_*.svg; do
+      [ -e "$plot" ] && echo && echo "![$(basename "$plot" .svg)](${plot#docs/})"
+    done
+  done
+} >"$work/page"
+mv "$work/page" "$page"
+echo "wrote $page"
