@@ -7,7 +7,7 @@ CUDA_ARCHITECTURES ?= 90
 NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
 STAGES := talus talus-digitize talus-decompose talus-catalog talus-simulate talus-post
 
-.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy gpu-check format check-format clean
+.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy gpu-check exact-pairs format check-format clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -63,6 +63,11 @@ gpu-check: install  ## On a GPU machine: build the CUDA engine with its tests an
 	cmake --preset dem-cuda -DCMAKE_CUDA_ARCHITECTURES=native
 	cmake --build --preset dem-cuda --parallel $(JOBS)
 	ctest --test-dir build-dem-cuda --output-on-failure -L 'unit|property|validation|backend'
+
+exact-pairs: $(BUILD)/CMakeCache.txt  ## A million random pairs against exact arithmetic (25 CPU minutes); PAIRS=number
+	cmake --build $(BUILD) --parallel $(JOBS) --target dem_exact_test
+	TALUS_EXACT_PAIRS=$(or $(PAIRS),1000000) TALUS_EXACT_TABLE=$(BUILD)/exact_pairs.md $(BUILD)/tests/dem_exact_test
+	cat $(BUILD)/exact_pairs.md
 
 format:  ## Format every source file
 	git ls-files '*.cpp' '*.h' | xargs clang-format -i

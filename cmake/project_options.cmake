@@ -4,7 +4,8 @@
 add_library(project_options INTERFACE)
 target_include_directories(project_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_compile_features(project_options INTERFACE cxx_std_20)
-target_compile_definitions(project_options INTERFACE TALUS_VERSION="${PROJECT_VERSION}")
+target_compile_definitions(project_options INTERFACE TALUS_VERSION="${PROJECT_VERSION}"
+  $<$<STREQUAL:${TALUS_PRECISION},mixed>:TALUS_MIXED_PRECISION>)
 target_compile_options(project_options INTERFACE
   # No object of a vector type crosses a library boundary, so its calling convention (-Wpsabi) does not matter.
   # GCC 12 warns of overlapping copies in "literal" + std::string where there are none (GCC bug 105329).

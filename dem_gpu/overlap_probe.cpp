@@ -61,8 +61,8 @@ OverlapSolid OverlapProbe::overlap(const PosePair& poses) const {
   VolumeIntegrals integrals;
   integrate(view(columns_->shapes), a, b, cache.data(), integrals);
   if (!(integrals.volume > 0)) return {};
-  const Real square = a.scale * a.scale;
-  return {square * a.scale * integrals.volume, square * (a.rotation * integrals.area),
+  const Real square = a.scale * a.scale, cube = square * a.scale;
+  return {cube * integrals.volume, square * (a.rotation * integrals.area), cube * (a.rotation * integrals.area_moment),
           a.position + a.scale * (a.rotation * integrals.centroid())};
 }
 

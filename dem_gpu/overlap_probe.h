@@ -22,9 +22,10 @@ struct PosePair {
 
 /// Overlap of two bodies as a solid, world frame.
 struct OverlapSolid {
-  Real volume = 0;  // V [m3]
-  Vec3 area;        // S, vector area of a's surface inside b [m2]
-  Vec3 centroid;    // [m]; the world's origin where there is no overlap
+  Real volume = 0;   // V [m3]
+  Vec3 area;         // S, vector area of a's surface inside b [m2]
+  Vec3 area_moment;  // M, integral over the same of x cross n dA, x from a's position [m3]
+  Vec3 centroid;     // [m]; the world's origin where there is no overlap
 };
 
 /// Elastic contact of two bodies, world frame; all zero where they do not touch.

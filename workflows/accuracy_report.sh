@@ -19,11 +19,17 @@ mkdir -p "$plots"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Tables of the validation tests of a build folder; a failing test is named.
+# What the validation tests of a build folder print, test by test; a failing test is named.
 validation_tables() {
   ctest --test-dir "$1" -L validation --verbose --output-log "$work/log" >/dev/null || true
-  echo "    ctest --test-dir $1 -L validation --verbose"
-  sed -n 's/^[0-9]*: \(### .*\)$/\n\1\n/p; s/^[0-9]*: \(|.*\)$/\1/p' "$work/log"
+  echo "    ctest --test-dir $(basename "$1") -L validation --verbose"
+  sed -n 's/^[0-9]*: //p' "$work/log" | awk '
+    function close_block() { if (open) print "```"; open = 0 }
+    /^\[ RUN      \]/ { name = $4; next }
+    /^\[|^Running main|^Note: Google Test|^Test command|^Working Directory|^Test timeout|^Environment|^ *[A-Z_]+=|^ *$|^ *[0-9]+ FAILED/ { next }
+    name != shown { close_block(); printf "\n**%s**\n\n```text\n", name; shown = name; open = 1 }
+    { print }
+    END { close_block() }'
   echo
   sed -n '/tests passed/p; /(Failed)/p; /(Timeout)/p' "$work/log"
 }

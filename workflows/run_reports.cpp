@@ -342,14 +342,10 @@ std::vector<std::string> run_warnings(const AssembledScene& assembled, const Sce
 nlohmann::ordered_json run_summary(const AssembledScene& assembled, const SceneDescription& description,
                                    const dem_gpu::Simulation& simulation, const dem_gpu::EnergyLedger& ledger,
                                    const RunFacts& facts) {
-  Json json{{"name", assembled.scene.name},
-            {"finished", facts.finished},
-            {"simulated_time", simulation.time()},
-            {"steps", simulation.step()},
-            {"time_step", simulation.time_step()},
-            {"wall_seconds", facts.wall_seconds},
-            {"backend", backend_name()},
-            {"precision", sizeof(dem_gpu::Real) == sizeof(double) ? "double" : "single"}};
+  Json json{{"name", assembled.scene.name},        {"finished", facts.finished},
+            {"simulated_time", simulation.time()}, {"steps", simulation.step()},
+            {"time_step", simulation.time_step()}, {"wall_seconds", facts.wall_seconds},
+            {"backend", backend_name()},           {"precision", dem_gpu::kPrecision}};
   if (!facts.error.empty()) json["error"] = facts.error;
   json["energy"] = {{"kinetic", ledger.kinetic},
                     {"gravitational", ledger.gravitational},

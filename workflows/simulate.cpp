@@ -121,7 +121,8 @@ void keep_end_time(const RunFolder& folder, double end_time) {
 }
 
 void start_log(const RunFolder& folder, const dem_gpu::Simulation& simulation, const SimulateOptions& options) {
-  folder.log(tool_version() + ", engine on " + backend_name() + ": " + options.command);
+  folder.log(tool_version() + ", engine on " + backend_name() + " in " + dem_gpu::kPrecision +
+             " precision: " + options.command);
   std::string passes;
   for (const std::string& pass : simulation.pass_names()) passes += (passes.empty() ? "" : ", ") + pass;
   folder.log("passes: " + passes);

@@ -47,7 +47,7 @@ TALUS_HD bool is_near_wall(const ShapeView& shapes, const MeshView& meshes, cons
     const PartView part = part_view(shapes, shapes.shapes[wall.shape].first_part);
     const Vec3 local = rotate_back(wall.orientation, x - wall.point);
     for (int f = 0; f < part.range.face_count; ++f)
-      if (dot(part.planes[f].normal, local) - part.planes[f].offset > reach) return false;
+      if (depth_below<Real>(part.planes[f], local) < -reach) return false;
     return true;
   }
   const WallField field = wall_field(wall, x);

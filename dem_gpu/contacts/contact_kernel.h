@@ -51,6 +51,13 @@ struct WallPartner {
   static constexpr bool kIsWall = true;
 };
 
+/// Not part of the kernel, so that the contact is the same with a record and without.
+template <class Geometry, class Patch>
+TALUS_HD TALUS_ONE_COPY bool find_contact(const Geometry& geometry, const ContactScene& scene, int c, int a, int b,
+                                          ElasticContact& elastic, Patch& patch) {
+  return geometry.find(scene, c, a, b, elastic, patch);
+}
+
 /// One contact a thread: `Geometry` finds the elastic contact, the response completes it.
 template <class Geometry, class Friction, class Record>
 struct ComputeContact {
@@ -63,7 +70,7 @@ struct ComputeContact {
     const int a = key_body_a(key), b = key_body_b(key);
     ElasticContact elastic;
     typename Friction::Patch patch;
-    const bool is_touching = geometry.find(scene, c, a, b, elastic, patch);
+    const bool is_touching = find_contact(geometry, scene, c, a, b, elastic, patch);
     if (!is_touching && scene.contacts.depth[c] == 0) return;
     const ContactSide side_a = body_side(scene.bodies, a);
     const ContactSide side_b = other_side(b);

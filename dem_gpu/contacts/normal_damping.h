@@ -47,6 +47,8 @@ struct OrbitDamping {
     if (!(step > 0)) return 0;  // forces of a start, before any step: the elastic one alone
     const Real force = -dot(elastic.force, elastic.normal);
     const Real rate = std::sqrt(elastic.stiffness / mass), damping = 2 * impact.pair.sphere_damping * rate;
+    // Nothing to damp and no jump at touch: Verlet itself keeps the energy, also where several bodies meet at once.
+    if (damping == 0 && elastic.adhesion == 0) return 0;
     const NormalAcceleration law{elastic.depth, (force + elastic.adhesion) / mass, damping, elastic.adhesion / mass,
                                  Law::kExponent > 1};
     const Real owed = contacts.owed_kick[c];

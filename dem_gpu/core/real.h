@@ -3,7 +3,17 @@
 
 namespace dem_gpu {
 
-/// The engine's floating-point type.
+/// Positions, orientations, velocities, time, forces, sums and ledger.
 using Real = double;
+
+/// Contact geometry: parts in their body frames, clipped polygons and integrals over them, which lie near their own
+/// origin. Frame changes between bodies are formed in Real and then rounded. TALUS_PRECISION chooses it.
+#if defined(TALUS_MIXED_PRECISION)
+using LocalReal = float;
+inline constexpr const char* kPrecision = "mixed";
+#else
+using LocalReal = double;
+inline constexpr const char* kPrecision = "double";
+#endif
 
 }  // namespace dem_gpu

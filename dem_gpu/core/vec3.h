@@ -2,47 +2,99 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 #include "dem_gpu/core/host_device.h"
 #include "dem_gpu/core/real.h"
 
 namespace dem_gpu {
 
-struct Vec3 {
-  Real x = 0, y = 0, z = 0;
+template <class Scalar>
+struct Vector3 {
+  Scalar x = 0, y = 0, z = 0;
 
-  TALUS_HD Vec3& operator+=(const Vec3& b) { return x += b.x, y += b.y, z += b.z, *this; }
-  TALUS_HD Vec3& operator-=(const Vec3& b) { return x -= b.x, y -= b.y, z -= b.z, *this; }
-  TALUS_HD Vec3& operator*=(Real s) { return x *= s, y *= s, z *= s, *this; }
-  friend bool operator==(const Vec3&, const Vec3&) = default;
+  TALUS_HD Vector3& operator+=(const Vector3& b) { return x += b.x, y += b.y, z += b.z, *this; }
+  TALUS_HD Vector3& operator-=(const Vector3& b) { return x -= b.x, y -= b.y, z -= b.z, *this; }
+  TALUS_HD Vector3& operator*=(Scalar s) { return x *= s, y *= s, z *= s, *this; }
+  friend bool operator==(const Vector3&, const Vector3&) = default;
+
+  /// Widening loses nothing, so it needs no word; narrowing is `rounded`.
+  TALUS_HD operator Vector3<double>() const requires std::is_same_v<Scalar, float> { return {x, y, z}; }
 };
 
-TALUS_HD inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-TALUS_HD inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-TALUS_HD inline Vec3 operator-(const Vec3& a) { return {-a.x, -a.y, -a.z}; }
-TALUS_HD inline Vec3 operator*(Real s, const Vec3& a) { return {s * a.x, s * a.y, s * a.z}; }
-TALUS_HD inline Vec3 operator*(const Vec3& a, Real s) { return s * a; }
-TALUS_HD inline Vec3 operator/(const Vec3& a, Real s) { return (1 / s) * a; }
+using Vec3 = Vector3<Real>;
+using LocalVec3 = Vector3<LocalReal>;
 
-TALUS_HD inline Real dot(const Vec3& a, const Vec3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-TALUS_HD inline Vec3 cross(const Vec3& a, const Vec3& b) {
+/// A factor of any arithmetic type takes the vector's precision.
+template <class Scalar>
+using Factor = std::type_identity_t<Scalar>;
+
+template <class Scalar>
+TALUS_HD inline Vector3<Scalar> operator+(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class Scalar>
+TALUS_HD inline Vector3<Scalar> operator-(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class Scalar>
+TALUS_HD inline Vector3<Scalar> operator-(const Vector3<Scalar>& a) {
+  return {-a.x, -a.y, -a.z};
+}
+template <class Scalar>
+TALUS_HD inline Vector3<Scalar> operator*(Factor<Scalar> s, const Vector3<Scalar>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class Scalar>
+TALUS_HD inline Vector3<Scalar> operator*(const Vector3<Scalar>& a, Factor<Scalar> s) {
+  return s * a;
+}
+template <class Scalar>
+TALUS_HD inline Vector3<Scalar> operator/(const Vector3<Scalar>& a, Factor<Scalar> s) {
+  return (1 / s) * a;
+}
+
+template <class Scalar>
+TALUS_HD inline Scalar dot(const Vector3<Scalar>& a, const std::type_identity_t<Vector3<Scalar>>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class Scalar>
+TALUS_HD inline Vector3<Scalar> cross(const Vector3<Scalar>& a, const std::type_identity_t<Vector3<Scalar>>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-TALUS_HD inline Vec3 hadamard(const Vec3& a, const Vec3& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-TALUS_HD inline Real norm_squared(const Vec3& a) { return dot(a, a); }
-TALUS_HD inline Real norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
+template <class Scalar>
+TALUS_HD inline Vector3<Scalar> hadamard(const Vector3<Scalar>& a, const Vector3<Scalar>& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+template <class Scalar>
+TALUS_HD inline Scalar norm_squared(const Vector3<Scalar>& a) {
+  return dot(a, a);
+}
+template <class Scalar>
+TALUS_HD inline Scalar norm(const Vector3<Scalar>& a) {
+  return std::sqrt(dot(a, a));
+}
 
 /// a / |a|, or `fallback` where a is zero.
-TALUS_HD inline Vec3 unit_or(const Vec3& a, const Vec3& fallback) {
-  const Real length = norm(a);
+template <class Scalar>
+TALUS_HD inline Vector3<Scalar> unit_or(const Vector3<Scalar>& a,
+                                        const std::type_identity_t<Vector3<Scalar>>& fallback) {
+  const Scalar length = norm(a);
   return length > 0 ? a / length : fallback;
 }
 
 /// Some unit vector at right angles to the unit vector n.
-TALUS_HD inline Vec3 any_perpendicular(const Vec3& n) {
-  const Vec3 trial = std::abs(n.x) < Real(0.6) ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-  const Vec3 side = cross(n, trial);
+template <class Scalar>
+TALUS_HD inline Vector3<Scalar> any_perpendicular(const Vector3<Scalar>& n) {
+  const Vector3<Scalar> trial = std::abs(n.x) < Scalar(0.6) ? Vector3<Scalar>{1, 0, 0} : Vector3<Scalar>{0, 1, 0};
+  const Vector3<Scalar> side = cross(n, trial);
   return side / norm(side);
+}
+
+/// To the precision of contact geometry.
+template <class Scalar>
+TALUS_HD inline LocalVec3 rounded(const Vector3<Scalar>& a) {
+  return {static_cast<LocalReal>(a.x), static_cast<LocalReal>(a.y), static_cast<LocalReal>(a.z)};
 }
 
 }  // namespace dem_gpu

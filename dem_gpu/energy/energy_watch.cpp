@@ -82,7 +82,9 @@ void refuse_created_energy(const Model& model, const State& state) {
 void refuse_pushed_through(const Model& model, const State& state) {
   // In diameters of the smaller body. A field pushes out the nearest way: from here on that is the far side.
   constexpr Real kThrough = 1;
-  if (max_of(state.contacts.peak_overlap, Real(0)) < kThrough) return;
+  // A scene that lets bodies start deeper means them to.
+  const Real limit = std::max(kThrough, model.scene.run.largest_start_overlap);
+  if (max_of(state.contacts.peak_overlap, Real(0)) < limit) return;
   const auto overlap = to_host(state.contacts.peak_overlap);
   const auto c = static_cast<std::size_t>(std::max_element(overlap.begin(), overlap.end()) - overlap.begin());
   const ContactKey key = state.contacts.key[c];

@@ -15,6 +15,7 @@ namespace {
 
 constexpr const char* kKind = "talus-checkpoint";
 constexpr int kVersion = 3;
+constexpr std::int64_t kLocalRealBytes = sizeof(LocalReal);
 
 /// A whole checkpoint that does not fit the simulation: no reason to look at an earlier one.
 class ForeignCheckpoint : public catalog::InputError {
@@ -193,8 +194,10 @@ void read_column(const io::Hdf5Reader& file, const std::string& name, T& column)
 
 void read_one(const std::filesystem::path& path, const Model& model, State& state) {
   const io::Hdf5Reader file(path, kKind, kVersion);
-  if (file.integer_attribute("real_bytes") != static_cast<std::int64_t>(sizeof(Real)))
-    throw ForeignCheckpoint(path.string() + ": written in another precision; resume with the build that wrote it");
+  if (const std::int64_t bytes = file.integer_attribute("local_real_bytes"); bytes != kLocalRealBytes)
+    throw ForeignCheckpoint(path.string() + ": written in " + (bytes == sizeof(double) ? "double" : "mixed") +
+                            " precision, this build computes in " + kPrecision +
+                            " precision; resume with the build that wrote it");
   if (file.integer_attribute("scene") != fingerprint(model))
     throw ForeignCheckpoint(path.string() + ": belongs to another scene (bodies, walls, laws or time step differ); " +
                             "resume with the scene it was written by");
@@ -224,7 +227,7 @@ void write_checkpoint_file(const std::filesystem::path& run_folder, const Model&
   const std::filesystem::path path = run_folder / "checkpoint.h5", next = run_folder / "checkpoint_next.h5";
   {
     io::Hdf5Writer file(next, kKind, kVersion);
-    file.write_attribute("real_bytes", static_cast<std::int64_t>(sizeof(Real)));
+    file.write_attribute("local_real_bytes", kLocalRealBytes);
     file.write_attribute("scene", fingerprint(model));
     file.write_attribute("step", state.step);
     file.write_attribute("listed_time", static_cast<double>(state.listed_time));

@@ -26,7 +26,7 @@ TALUS_HD inline PartDistance distance_to_part(const PartView& part, const Vec3& 
   int shallowest_outer = 0;
   bool is_outside = false;
   for (int f = 0; f < part.range.face_count; ++f) {
-    const Real height = dot(part.planes[f].normal, x) - part.planes[f].offset;
+    const Real height = -depth_below<Real>(part.planes[f], x);
     if (height > reach) return {2 * reach + 1, part.planes[f].normal};
     if (height > 0) is_outside = true;
     if (f < part.range.outer_face_count && height > highest_outer) highest_outer = height, shallowest_outer = f;

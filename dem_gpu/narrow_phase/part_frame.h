@@ -42,8 +42,8 @@ struct DepthField {
 /// One convex part with pointers into the shape columns.
 struct PartView {
   const PartRange& range;
-  const Vec3* vertices;
-  const HalfSpace* planes;
+  const LocalVec3* vertices;
+  const LocalHalfSpace* planes;
   const FaceCorners* faces;
   const std::uint8_t* corners;
   DepthField depth;

@@ -28,7 +28,7 @@ struct CoplanarRule {
         lies_in_plane = std::abs(dot(plane.normal, face.corner[c]) - plane.offset) <= tolerance;
       if (!lies_in_plane) continue;
       const Vec3 area = cross(face.corner[1] - face.corner[0], face.corner[2] - face.corner[0]);
-      if (dot(area, plane.normal) < 0) return false;
+      if (dot(plane.normal, area) < 0) return false;
       const bool is_inner_plane = f >= solid.range.outer_face_count;
       return is_inner_face == is_inner_plane ? is_closed : is_inner_plane;
     }

@@ -8,19 +8,21 @@
 
 namespace dem_gpu {
 
-/// Vertices of a part in another frame, one array a coordinate, so that loops over them run in vector registers. Padded
-/// to whole blocks by repeating the last vertex.
+/// Vertices of a part in another frame (where they are moved in Real and then rounded), one array a coordinate, so that
+/// loops over them run in vector registers. Padded to whole blocks by repeating the last vertex.
 struct PartVertices {
-  ScratchArray<Real, kMaxPartVertices> x, y, z;
+  ScratchArray<LocalReal, kMaxPartVertices> x, y, z;
   int count;         // of vertices
   int padded_count;  // a multiple of kLanes
 
   /// Heights of kLanes vertices from `first` over a plane.
-  TALUS_HD Lanes height_over(const HalfSpace& plane, int first) const {
-    return plane.normal.x * load_lanes(x.data() + first) + plane.normal.y * load_lanes(y.data() + first) +
-           plane.normal.z * load_lanes(z.data() + first) - plane.offset;
+  template <class Scalar>
+  TALUS_HD Lanes height_over(const BasicHalfSpace<Scalar>& plane, int first) const {
+    const LocalVec3 normal = rounded(plane.normal);
+    return normal.x * load_lanes(x.data() + first) + normal.y * load_lanes(y.data() + first) +
+           normal.z * load_lanes(z.data() + first) - static_cast<LocalReal>(plane.offset);
   }
-  TALUS_HD Vec3 operator[](int v) const { return {x[v], y[v], z[v]}; }
+  TALUS_HD LocalVec3 operator[](int v) const { return {x[v], y[v], z[v]}; }
 };
 static_assert(kMaxPartVertices % kLanes == 0);
 
@@ -28,7 +30,7 @@ TALUS_HD inline void transform_vertices(const PartView& part, const FrameChange&
   vertices.count = part.range.vertex_count;
   vertices.padded_count = (vertices.count + kLanes - 1) / kLanes * kLanes;
   for (int v = 0; v < vertices.padded_count; ++v) {
-    const Vec3 point = change.point(part.vertices[v < vertices.count ? v : vertices.count - 1]);
+    const LocalVec3 point = rounded(change.point(part.vertices[v < vertices.count ? v : vertices.count - 1]));
     vertices.x[v] = point.x;
     vertices.y[v] = point.y;
     vertices.z[v] = point.z;

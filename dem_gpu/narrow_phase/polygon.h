@@ -13,32 +13,33 @@ inline constexpr int kMaxPolygonCorners = 64;
 
 /// Planar convex polygon.
 struct Polygon {
-  ScratchArray<Vec3, kMaxPolygonCorners> corner;
+  ScratchArray<LocalVec3, kMaxPolygonCorners> corner;
   int count = 0;
   bool is_truncated = false;  // a corner did not fit: reported by the host, never dropped in silence
 };
 
-TALUS_HD inline void append(Polygon& polygon, const Vec3& corner) {
+TALUS_HD inline void append(Polygon& polygon, const LocalVec3& corner) {
   if (polygon.count < kMaxPolygonCorners)
     polygon.corner[polygon.count++] = corner;
   else
     polygon.is_truncated = true;
 }
 
-/// The piece of `polygon` inside the half-space (its normal need not be a unit vector).
-/// Sutherland & Hodgman, Commun. ACM 17 (1974) 32-42.
-TALUS_HD inline void clip(const Polygon& polygon, const HalfSpace& half_space, Polygon& clipped) {
+/// The piece of `polygon` inside the half-space (its normal need not be a unit vector), computed in the half-space's
+/// precision. Sutherland & Hodgman, Commun. ACM 17 (1974) 32-42.
+template <class Scalar>
+TALUS_HD inline void clip(const Polygon& polygon, const BasicHalfSpace<Scalar>& half_space, Polygon& clipped) {
   clipped.count = 0;
   clipped.is_truncated = polygon.is_truncated;
   if (polygon.count == 0) return;
-  Vec3 previous = polygon.corner[polygon.count - 1];
-  Real previous_depth = depth_below(half_space, previous);
+  Vector3<Scalar> previous = polygon.corner[polygon.count - 1];
+  Scalar previous_depth = depth_below(half_space, previous);
   for (int c = 0; c < polygon.count; ++c) {
-    const Vec3 current = polygon.corner[c];
-    const Real depth = depth_below(half_space, current);
+    const Vector3<Scalar> current = polygon.corner[c];
+    const Scalar depth = depth_below(half_space, current);
     if ((depth > 0 && previous_depth < 0) || (depth < 0 && previous_depth > 0))
-      append(clipped, previous + (previous_depth / (previous_depth - depth)) * (current - previous));
-    if (depth >= 0) append(clipped, current);
+      append(clipped, rounded(previous + (previous_depth / (previous_depth - depth)) * (current - previous)));
+    if (depth >= 0) append(clipped, polygon.corner[c]);
     previous = current;
     previous_depth = depth;
   }

@@ -181,7 +181,7 @@ struct FieldOnPolygon {
     for (int c = 0; c < polygon.count; ++c) sum += polygon.corner[c];
     const Vec3 centre = sum / static_cast<Real>(polygon.count);
     Real square = 0;
-    for (int c = 0; c < polygon.count; ++c) square = std::max(square, norm_squared(polygon.corner[c] - centre));
+    for (int c = 0; c < polygon.count; ++c) square = std::max(square, norm_squared(Vec3(polygon.corner[c]) - centre));
     return {centre, std::sqrt(square)};
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "dem_gpu/narrow_phase/part_vertices.h"
 
@@ -21,9 +22,9 @@ TALUS_HD inline bool lies_outside(const PartView& part, const HalfSpace& plane, 
   return true;
 }
 
-/// Planes within this distance, over the size of the two parts, count as one: above the rounding of the frame changes,
-/// far below any overlap that matters.
-constexpr Real kCoplanarity = 1e-12;
+/// Planes within this distance, over the size of the two parts, count as one: above the rounding of vertices and planes
+/// (a few units in the last place), far below any overlap that matters.
+constexpr Real kCoplanarity = std::is_same_v<LocalReal, float> ? 1e-6 : 1e-12;
 
 /// On which side of the planes of a convex solid a set of vertices lies.
 struct PlaneSides {
@@ -41,7 +42,7 @@ TALUS_HD inline int classify(const PartView& solid, const PartVertices& vertices
   sides.plane_count = sides.coplanar_count = 0;
   int most_in_front = 0, best = 0;
   for (int f = 0; f < solid.range.face_count; ++f) {
-    const HalfSpace plane = solid.planes[f];
+    const LocalHalfSpace plane = solid.planes[f];
     LaneBits in_front_lanes{}, touching_lanes{};
     for (int first = 0; first < vertices.padded_count; first += kLanes) {
       const Lanes height = vertices.height_over(plane, first);

@@ -12,7 +12,8 @@ namespace dem_gpu {
 
 /// Overlap integrals V, S, M of two bodies in a's unscaled body frame, additive over part pairs: inner faces are
 /// visited too and cancel. Feng, Comput. Methods Appl. Mech. Eng. 373 (2021) 113493; divergence theorem about a point
-/// of the overlap, not the world's origin. For friction all of the contact is one patch along S.
+/// of the overlap, not the world's origin. Polygons in the precision of contact geometry, sums in Real. For friction
+/// all of the contact is one patch along S.
 template <class Sums>
 struct VolumeIntegralsOf {
   static constexpr bool kNeedsInnerFaces = true;
@@ -29,7 +30,7 @@ struct VolumeIntegralsOf {
 
   TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, bool is_outer, const PartView&,
                               const FrameChange& b_to_a) {
-    const Vec3 normal = b_to_a.direction(plane_b.normal);
+    const LocalVec3 normal = rounded(b_to_a.direction(plane_b.normal));
     add_volume(polygon, normal);
     if constexpr (kHasPatch)
       if (is_outer) add_area(patch.side_b, polygon, normal, 1);
@@ -37,16 +38,17 @@ struct VolumeIntegralsOf {
 
   TALUS_HD void add_surface_a(Polygon& polygon, const HalfSpace& plane_a, bool is_outer, const PartView&,
                               const FrameChange& b_to_a) {
-    for (int c = 0; c < polygon.count; ++c) polygon.corner[c] = b_to_a.point(polygon.corner[c]);
-    add_volume(polygon, plane_a.normal);
+    for (int c = 0; c < polygon.count; ++c) polygon.corner[c] = rounded(b_to_a.point(polygon.corner[c]));
+    const LocalVec3 normal = rounded(plane_a.normal);
+    add_volume(polygon, normal);
     if constexpr (kHasPatch)
       if (is_outer) add_area(patch.side_a, polygon, plane_a.normal, -1);
-    const Vec3 a = polygon.corner[0];
+    const LocalVec3 a = polygon.corner[0];
     for (int c = 2; c < polygon.count; ++c) {
-      const Vec3 b = polygon.corner[c - 1], d = polygon.corner[c];
-      const Real triangle = Real(0.5) * dot(cross(b - a, d - a), plane_a.normal);
+      const LocalVec3 b = polygon.corner[c - 1], d = polygon.corner[c];
+      const LocalReal triangle = dot(cross(b - a, d - a), normal) / 2;
       area += triangle * plane_a.normal;
-      area_moment += cross((triangle / 3) * (a + b + d), plane_a.normal);
+      area_moment += Vec3(cross((triangle / 3) * (a + b + d), normal));
     }
   }
 
@@ -83,16 +85,16 @@ struct VolumeIntegralsOf {
                 LinearProfile{}.second_moment({a, b, d, 1, 1, 1, triangle}));
     }
   }
-  TALUS_HD void add_volume(const Polygon& polygon, const Vec3& normal) {
+  TALUS_HD void add_volume(const Polygon& polygon, const LocalVec3& normal) {
     if (!has_reference) reference = polygon.corner[0], has_reference = true;
-    const Vec3 a = polygon.corner[0] - reference;
-    const Real height = dot(a, normal);  // the same over the plane of the polygon
+    const LocalVec3 origin = rounded(reference), a = polygon.corner[0] - origin;
+    const LocalReal height = dot(a, normal);  // the same over the plane of the polygon
     for (int c = 2; c < polygon.count; ++c) {
-      const Vec3 b = polygon.corner[c - 1] - reference, d = polygon.corner[c] - reference;
-      const Real triangle = Real(0.5) * dot(cross(b - a, d - a), normal);
+      const LocalVec3 b = polygon.corner[c - 1] - origin, d = polygon.corner[c] - origin;
+      const LocalReal triangle = dot(cross(b - a, d - a), normal) / 2;
       volume += triangle * height / 3;
       // Pyramid to the reference point: its centroid lies at 3/4 of the way to the base's.
-      first_moment += (triangle * height / 12) * (a + b + d);
+      first_moment += Vec3((triangle * height / 12) * (a + b + d));
     }
   }
 };

@@ -16,7 +16,9 @@ using catalog::FaceKind;
 
 Vec3 to_vec3(const catalog::Point& p) { return {p[0], p[1], p[2]}; }
 
-HalfSpace to_half_space(const ConvexFace& face) { return {to_vec3(face.plane.normal), face.plane.offset}; }
+LocalHalfSpace to_half_space(const ConvexFace& face) {
+  return {rounded(to_vec3(face.plane.normal)), static_cast<LocalReal>(face.plane.offset)};
+}
 
 PartRange append_part(HostShapeColumns& columns, const ConvexPart& part) {
   PartRange range;
@@ -26,14 +28,14 @@ PartRange append_part(HostShapeColumns& columns, const ConvexPart& part) {
   range.face_count = static_cast<int>(part.faces.size());
   Vec3 low{1e300, 1e300, 1e300}, high{-1e300, -1e300, -1e300};
   for (const catalog::Point& point : part.vertices) {
-    const Vec3 vertex = to_vec3(point);
-    columns.vertices.push_back(vertex);
+    columns.vertices.push_back(rounded(to_vec3(point)));
+    const Vec3 vertex = columns.vertices.back();
     low = {std::min(low.x, vertex.x), std::min(low.y, vertex.y), std::min(low.z, vertex.z)};
     high = {std::max(high.x, vertex.x), std::max(high.y, vertex.y), std::max(high.z, vertex.z)};
   }
   range.centre = Real(0.5) * (low + high);
-  for (const catalog::Point& point : part.vertices)
-    range.radius = std::max(range.radius, norm(to_vec3(point) - range.centre));
+  for (auto vertex = columns.vertices.begin() + range.first_vertex; vertex != columns.vertices.end(); ++vertex)
+    range.radius = std::max(range.radius, norm(Vec3(*vertex) - range.centre));
   for (const FaceKind kind : {FaceKind::outer, FaceKind::inner})
     for (const ConvexFace& face : part.faces) {
       if (face.kind != kind) continue;

@@ -12,11 +12,21 @@
 namespace dem_gpu {
 
 /// Half-space boundary: inside where dot(normal, x) <= offset.
-struct HalfSpace {
-  Vec3 normal;
-  Real offset = 0;
+template <class Scalar>
+struct BasicHalfSpace {
+  Vector3<Scalar> normal;
+  Scalar offset = 0;
+
+  TALUS_HD operator BasicHalfSpace<double>() const requires std::is_same_v<Scalar, float> { return {normal, offset}; }
 };
-TALUS_HD inline Real depth_below(const HalfSpace& plane, const Vec3& x) { return plane.offset - dot(plane.normal, x); }
+using HalfSpace = BasicHalfSpace<Real>;
+using LocalHalfSpace = BasicHalfSpace<LocalReal>;
+
+template <class Scalar>
+TALUS_HD inline Scalar depth_below(const BasicHalfSpace<Scalar>& plane,
+                                   const std::type_identity_t<Vector3<Scalar>>& x) {
+  return plane.offset - dot(plane.normal, x);
+}
 
 struct PartRange {
   int first_vertex = 0, vertex_count = 0;
@@ -49,15 +59,15 @@ struct ShapeRange {
   Vec3 inertia;                        // principal, density 1 [m5]
 };
 
-/// Constant during a run, all at scale 1 in the body frame. Walls that are volume objects stand after the scene's
-/// shapes.
+/// Constant during a run, parts in the precision of contact geometry. All at scale 1 in the body frame. Walls that are
+/// volume objects stand after the scene's shapes.
 struct ShapeColumns {
-  DeviceVector<ShapeRange> shapes;     // n_shapes
-  DeviceVector<PartRange> parts;       // n_parts
-  DeviceVector<Vec3> vertices;         // n_vertices [m]
-  DeviceVector<HalfSpace> planes;      // n_faces
-  DeviceVector<FaceCorners> faces;     // n_faces
-  DeviceVector<std::uint8_t> corners;  // vertex of the part, per corner of a face
+  DeviceVector<ShapeRange> shapes;      // n_shapes
+  DeviceVector<PartRange> parts;        // n_parts
+  DeviceVector<LocalVec3> vertices;     // n_vertices [m]
+  DeviceVector<LocalHalfSpace> planes;  // n_faces
+  DeviceVector<FaceCorners> faces;      // n_faces
+  DeviceVector<std::uint8_t> corners;   // vertex of the part, per corner of a face
   // The body's depth field in a part: the least of the depths below depth_planes and of the depth terms.
   DeviceVector<HalfSpace> depth_planes;
   DeviceVector<DepthTerm> depth_terms;
@@ -68,8 +78,8 @@ struct ShapeColumns {
 struct HostShapeColumns {
   std::vector<ShapeRange> shapes;
   std::vector<PartRange> parts;
-  std::vector<Vec3> vertices;
-  std::vector<HalfSpace> planes;
+  std::vector<LocalVec3> vertices;
+  std::vector<LocalHalfSpace> planes;
   std::vector<FaceCorners> faces;
   std::vector<std::uint8_t> corners;
   std::vector<HalfSpace> depth_planes;
@@ -80,8 +90,8 @@ struct HostShapeColumns {
 struct ShapeView {
   const ShapeRange* shapes;
   const PartRange* parts;
-  const Vec3* vertices;
-  const HalfSpace* planes;
+  const LocalVec3* vertices;
+  const LocalHalfSpace* planes;
   const FaceCorners* faces;
   const std::uint8_t* corners;
   const HalfSpace* depth_planes;

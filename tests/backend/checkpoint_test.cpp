@@ -152,6 +152,23 @@ TEST(Checkpoint, RefusesWhatItCannotUse) {
   EXPECT_NE(resume(), "accepted") << "a snapshot is no checkpoint";
 }
 
+TEST(Checkpoint, RefusesAnotherPrecisionByName) {
+  const TemporaryFolder folder;
+  const bool is_mixed = sizeof(dem_gpu::LocalReal) == sizeof(float);
+  Simulation simulation(mixed_scene());
+  std::string refusals;
+  for (int version = 1; version < 50; ++version) {  // one of them is today's
+    dem_gpu::io::Hdf5Writer other(folder / "checkpoint.h5", "talus-checkpoint", version);
+    other.write_attribute("local_real_bytes", static_cast<std::int64_t>(is_mixed ? sizeof(double) : sizeof(float)));
+    other.commit();
+    refusals += refusal([&] { simulation.read_checkpoint(folder.path()); }) + "\n";
+  }
+  EXPECT_NE(refusals.find(is_mixed ? "written in double precision, this build computes in mixed precision"
+                                   : "written in mixed precision, this build computes in double precision"),
+            std::string::npos)
+      << refusals;
+}
+
 TEST(Checkpoint, RefusesAnotherScene) {
   const TemporaryFolder folder;
   Simulation simulation(mixed_scene());
@@ -171,7 +188,11 @@ TEST(Checkpoint, RefusesAnotherScene) {
        }},
       {"another material", [](Scene& s) { s.contact[0][0].friction_coefficient = 0.1; }},
       {"another restitution", [](Scene& s) { s.contact[0][0].restitution = 0.9; }},
-      {"no friction", [](Scene& s) { s.friction.reset(); }},
+      {"no friction",
+       [](Scene& s) {
+         s.friction.reset();
+         s.contact[1][1].rolling_friction = 0;
+       }},
       {"another tangential stiffness", [](Scene& s) { s.friction->tangential_stiffness_ratio = 0.5; }},
       {"no ledger", [](Scene& s) { s.energy_ledger = false; }},
       {"another gravity", [](Scene& s) { s.gravity.z = -1; }},

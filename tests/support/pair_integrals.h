@@ -5,6 +5,7 @@
 
 #include "dem_gpu/contacts/polyhedron_geometry.h"
 #include "tests/support/dem_scenes.h"
+#include "tests/support/precision.h"
 
 namespace test_support {
 

@@ -36,6 +36,7 @@ TEST(NeighbourList, FindsAllTouchingSpheres) {
   }
   scene.walls = {floor_wall()};
   scene.run.time_step = 4e-4;
+  scene.run.largest_start_overlap = 10;
   Simulation simulation(scene);
   std::size_t total = 0;
   for (int round = 0; round < 30; ++round) {
@@ -66,6 +67,7 @@ TEST(NeighbourList, FindsAllTouchingPolyhedra) {
   for (int i = 0; i < 60; ++i)
     scene.bodies.push_back(body_at(i % 2, {place(random), place(random), place(random)}, random_rotation(random),
                                    0.1 * random_direction(random)));
+  scene.run.largest_start_overlap = 10;
   const PairIntegrals integrals[2][2] = {{{parts(0), parts(0)}, {parts(0), parts(1)}},
                                          {{parts(1), parts(0)}, {parts(1), parts(1)}}};
   Simulation simulation(scene);

@@ -41,11 +41,12 @@ Mat3 outer(const Vec3& n) {
 TEST(Patch, FaceOnFaceHasTheSquaresLever) {
   const PairIntegrals pair({unit_cube()}, {dem_gpu::box_part({4, 4, 1})});
   for (const double d : {1e-4, 1e-6}) {
+    if (kIsMixed && d < 1e-5) continue;  // touching
     const Found found = find(pair, {{0.3, 0.2, 1 - d}, {}}, {});
-    expect_same(found.patch.normals, outer({0, 0, 1}), 1e-12);
+    expect_same(found.patch.normals, outer({0, 0, 1}), 1e-12 + kSingle.integral);
     // The rim, d wide, carries less; uniform over the rest.
-    EXPECT_NEAR(found.patch.lever, 1 / std::sqrt(6.0), 2 * d);
-    EXPECT_NEAR(found.patch.load / norm(found.contact.force), 1, 1e-9);
+    EXPECT_NEAR(found.patch.lever, 1 / std::sqrt(6.0), 2 * d + kSingle.position / d);
+    EXPECT_NEAR(found.patch.load / norm(found.contact.force), 1, 1e-9 + kSingle.integral);
   }
 }
 
@@ -57,15 +58,15 @@ TEST(Patch, CornersAndEdgesAreOneContactWithTheNormalOfTheFlatSide) {
     double lowest = 0;
     for (const auto& v : unit_cube().vertices) lowest = std::min(lowest, double(rotate(turn, to_vec3(v)).z));
     const Found found = find(on_slab, {{0.1, 0, 0.5 - lowest - 0.02}, turn}, {});
-    expect_same(found.patch.normals, outer({0, 0, 1}), 1e-12);
-    EXPECT_NEAR(found.patch.load / norm(found.contact.force), 1, 1e-12);
+    expect_same(found.patch.normals, outer({0, 0, 1}), 1e-12 + kSingle.integral);
+    EXPECT_NEAR(found.patch.load / norm(found.contact.force), 1, 1e-12 + kSingle.integral);
   }
   // Edge across edge.
   const PairIntegrals cubes({unit_cube()}, {unit_cube()});
   const Quaternion across = normalized(dem_gpu::axis_angle({0, 0, 1}, M_PI / 2) * edge_down());
   const Found found = find(cubes, {{0, 0, std::sqrt(2.0) - 0.05}, edge_down()}, {{}, across});
-  expect_same(found.patch.normals, outer({0, 0, 1}), 1e-12);
-  EXPECT_NEAR(found.patch.load / norm(found.contact.force), 1, 1e-12);
+  expect_same(found.patch.normals, outer({0, 0, 1}), 1e-12 + kSingle.integral);
+  EXPECT_NEAR(found.patch.load / norm(found.contact.force), 1, 1e-12 + kSingle.integral);
 }
 
 TEST(Patch, InnerCornerLoadsBothItsFaces) {
@@ -82,8 +83,8 @@ TEST(Patch, InnerCornerLoadsBothItsFaces) {
     expect_same(found.patch.normals, expected, 5e-4);
     EXPECT_NEAR(found.patch.load / norm(found.contact.force), std::sqrt(2.0), 2e-3);
     if (slices == 1) first = found;
-    EXPECT_NEAR(found.patch.load / first.patch.load, 1, 1e-10) << "cut " << slices;
-    EXPECT_NEAR(found.patch.lever / first.patch.lever, 1, 1e-10);
+    EXPECT_NEAR(found.patch.load / first.patch.load, 1, 1e-10 + kSingle.integral) << "cut " << slices;
+    EXPECT_NEAR(found.patch.lever / first.patch.lever, 1, 1e-10 + kSingle.integral);
     // The same, moved and turned as one.
     const Quaternion turn = random_rotation(random);
     const Vec3 shift{3, -2, 1};

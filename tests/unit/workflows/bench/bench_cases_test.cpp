@@ -60,13 +60,18 @@ TEST(BenchCases, TheVolumeLawGainsEnergyWhereTheDepthPotentialKeepsIt) {
   }
 }
 
-// Velocity Verlet: the contact time's error falls with the square of the step.
-TEST(BenchCases, ContactTimeConvergesWithSecondOrder) {
+// Velocity Verlet: the contact time's error falls with the square of the step. Spheres are integrated within the step:
+// faster than that.
+TEST(BenchCases, ContactTimeConvergesWithSecondOrderOrBetter) {
   for (const std::string impact : {"sphere-linear", "sphere-hertz-pair", "cube-face"}) {
     const CaseResult result = measured("contact", impact);
     const double coarse = value_of(result, "contact time, relative error, 10 steps");
     const double fine = value_of(result, "contact time, relative error, 40 steps");
-    EXPECT_NEAR(std::log2(coarse / fine) / 2, 2, 0.1) << impact;
+    const double order = std::log2(coarse / fine) / 2;
+    EXPECT_GT(order, 1.9) << impact;
+    if (impact == "cube-face") {
+      EXPECT_LT(order, 2.1);
+    }
   }
 }
 
