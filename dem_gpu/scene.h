@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "catalog/convex_part.h"
+#include "catalog/triangle_mesh.h"
 #include "dem_gpu/contacts/laws/depth_potential.h"
 #include "dem_gpu/contacts/laws/hardening_depth_potential.h"
 #include "dem_gpu/contacts/laws/hertz.h"
@@ -74,53 +75,80 @@ struct Body {
   bool is_fixed = false;  // held where it is: meets others as a body of infinite mass; must be at rest
 };
 
-// World objects. The solid is behind the surface: particles live on the side the normal points to (plane, disc) or
-// inside (cylinder, cone).
+// World objects. The solid is behind the surface: particles live on the side the normal points to (plane, disc), inside
+// or outside (cylinder, cone, ball).
 struct Plane {
   Vec3 point;   // [m]
   Vec3 normal;  // unit
 };
-/// Round plate of finite radius; solid behind it: a gate or an end plate.
+/// Round plate of finite radius: a gate or an end plate. Without a thickness all that is behind it is solid.
 struct Disc {
-  Vec3 centre;      // [m]
-  Vec3 normal;      // unit
-  Real radius = 0;  // [m]
+  Vec3 centre;                                   // [m]
+  Vec3 normal;                                   // unit
+  Real radius = 0;                               // [m]
+  std::optional<Real> thickness = std::nullopt;  // [m]
 };
-/// Inside of a cylinder from `base` along the unit `axis` over `length`; solid outside it.
+/// Where the solid of a curved wall is: about a container that holds the bodies, or within a shaft or ball.
+enum class SolidSide { around, within };
+/// Cylinder from `base` along the unit `axis` over `length`, its ends open.
 struct Cylinder {
   Vec3 base;        // centre of the lower end [m]
   Vec3 axis;        // unit
   Real length = 0;  // [m]
   Real radius = 0;  // [m]
+  SolidSide solid = SolidSide::around;
 };
-/// Inside of a cone frustum; radius changes linearly from `base_radius` to `top_radius` over `length`.
+/// Cone frustum, its ends open; radius changes linearly from `base_radius` to `top_radius` over `length`.
 struct Cone {
   Vec3 base;             // [m]
   Vec3 axis;             // unit
   Real length = 0;       // [m]
   Real base_radius = 0;  // [m]
   Real top_radius = 0;   // [m]
+  SolidSide solid = SolidSide::around;
+};
+struct Ball {
+  Vec3 centre;      // [m]
+  Real radius = 0;  // [m]
+  SolidSide solid = SolidSide::around;
 };
 /// Convex volume object: a lifter, a block.
 struct VolumeObject {
   catalog::ConvexPart part;  // world frame at time 0 [m]
 };
+/// Triangle mesh. The solid lies behind its triangles, whose corners run counter-clockwise as seen from outside the
+/// solid; a closed mesh is a solid body, a container a hole in a solid all about it.
+struct MeshObject {
+  catalog::TriangleMesh mesh;                    // world frame at time 0 [m]
+  std::optional<Real> thickness = std::nullopt;  // solid behind an open sheet [m]
+  bool is_container = false;                     // closed mesh, bodies inside; either way round
+  Real depth = 0;  // of the layer in which contact is computed [m]; 0: the largest body's bounding radius
+};
 
-/// Prescribed motion; none by default. Rotation about a fixed axis and translation at constant speed.
+/// Prescribed motion; none by default. Rotation about an axis, translation at constant speed, and an oscillation, which
+/// all add up; the axes move along with the rotation centre.
 struct Motion {
   Vec3 rotation_centre;   // a point on the axis [m]
   Vec3 angular_velocity;  // world frame [rad/s]
   Vec3 velocity;          // [m/s]
   Real start_time = 0;    // at rest before [s]
-  Real ramp_time = 0;     // speed grows linearly over this time after start_time [s]
+  Real ramp_time = 0;     // speed and amplitude grow linearly over this time after start_time [s]
+  // Oscillation: amplitude * (sin(2 pi frequency t + phase) - sin(phase)), t from start_time.
+  Vec3 amplitude{};          // of the displacement, world frame [m]
+  Vec3 angular_amplitude{};  // of the turn about the axis through rotation_centre, world frame [rad]
+  Real frequency = 0;        // [Hz]
+  Real phase = 0;            // [rad]
+
+  friend bool operator==(const Motion&, const Motion&) = default;
 };
 
 struct Wall {
   std::string name;  // unique
-  std::variant<Plane, Disc, Cylinder, Cone, VolumeObject> geometry;
+  std::variant<Plane, Disc, Cylinder, Cone, Ball, VolumeObject, MeshObject> geometry;
   int material = 0;
   std::string contact_class;  // for the ledger: "shell", "lifter", "gate", ...; the wall's name if empty
   Motion motion;
+  std::string group;               // walls of one group move alike, and their loads are summed; "" for none
   std::optional<Real> removed_at;  // a gate that opens: absent from this time on [s]
 };
 

@@ -9,6 +9,7 @@
 
 #include "catalog/input_error.h"
 #include "catalog/triangle_mesh.h"
+#include "dem_gpu/meshes/contact_surface.h"
 #include "dem_gpu/scene.h"
 
 namespace dem_gpu {
@@ -190,6 +191,7 @@ struct CheckWall {
     demand(is_finite(disc.centre), place, "centre must be finite");
     demand(is_unit(disc.normal), place, "normal must be a unit vector");
     demand(is_positive(disc.radius), place, "radius must be positive");
+    demand(!disc.thickness || is_positive(*disc.thickness), place, "thickness must be positive");
   }
   void operator()(const Cylinder& cylinder) const {
     demand(is_finite(cylinder.base), place, "base must be finite");
@@ -203,11 +205,23 @@ struct CheckWall {
            "radii must not be negative and length must be positive");
     demand(cone.base_radius > 0 || cone.top_radius > 0, place, "one of the radii must be positive");
   }
+  void operator()(const Ball& ball) const {
+    demand(is_finite(ball.centre), place, "centre must be finite");
+    demand(is_positive(ball.radius), place, "radius must be positive");
+  }
   void operator()(const VolumeObject& object) const {
     try {
       polyhedral_shape("block", {object.part});
     } catch (const InputError& error) {
       throw InputError(place + ": not a convex solid (" + error.what() + ")");
+    }
+  }
+  void operator()(const MeshObject& object) const {
+    demand(object.depth >= 0 && std::isfinite(object.depth), place, "depth must not be negative");
+    try {
+      contact_surface(object);
+    } catch (const InputError& error) {
+      throw InputError(place + ": " + error.what());
     }
   }
 };
@@ -288,8 +302,13 @@ void check_walls(const Scene& scene) {
     std::visit(CheckWall{place}, wall.geometry);
     const Motion& motion = wall.motion;
     demand(is_finite(motion.rotation_centre) && is_finite(motion.angular_velocity) && is_finite(motion.velocity) &&
+               is_finite(motion.amplitude) && is_finite(motion.angular_amplitude) && std::isfinite(motion.phase) &&
                std::isfinite(motion.start_time) && motion.ramp_time >= 0 && std::isfinite(motion.ramp_time),
            place, "motion must be finite and its ramp time not negative");
+    demand(motion.frequency >= 0 && std::isfinite(motion.frequency), place, "frequency must not be negative");
+    for (const Wall& other : scene.walls)
+      demand(wall.group.empty() || wall.group != other.group || wall.motion == other.motion, place,
+             "moves otherwise than wall '" + other.name + "' of its group '" + wall.group + "'");
     demand(!wall.removed_at || !std::isnan(*wall.removed_at), place, "the time of removal must be a number");
   }
 }

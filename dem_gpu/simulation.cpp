@@ -14,9 +14,12 @@
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/energy/energy.h"
 #include "dem_gpu/io/checkpoint.h"
+#include "dem_gpu/meshes/contact_surface.h"
 #include "dem_gpu/shapes/least_width.h"
 #include "dem_gpu/start/start_overlap.h"
 #include "dem_gpu/step_builder.h"
+#include "dem_gpu/walls/hidden_faces.h"
+#include "dem_gpu/walls/wall_motion.h"
 
 namespace dem_gpu {
 namespace {
@@ -26,11 +29,11 @@ constexpr Real kSkinShare = 0.1;
 
 std::vector<Shape> shapes_with_objects(const Scene& scene) {
   std::vector<Shape> shapes = scene.shapes;
-  for (const Wall& wall : scene.walls)
-    if (const auto* object = std::get_if<VolumeObject>(&wall.geometry)) {
+  for (std::size_t w = 0; w < scene.walls.size(); ++w)
+    if (const auto* object = std::get_if<VolumeObject>(&scene.walls[w].geometry)) {
       // Volume objects stay in the world frame of time 0: their pose is their motion.
-      Shape shape = polyhedral_shape(wall.name, {object->part});
-      shape.geometry = PolyhedralShape{{object->part}};
+      Shape shape = polyhedral_shape(scene.walls[w].name, {object->part});
+      shape.geometry = PolyhedralShape{{welded_part(scene, w)}};
       shapes.push_back(std::move(shape));
     }
   return shapes;
@@ -40,6 +43,13 @@ std::vector<Shape> shapes_with_objects(const Scene& scene) {
 std::optional<Real> depth_cap(const Scene& scene) {
   const DepthPotential* law = depth_potential(scene.polyhedral_law);
   return law ? std::optional(law->depth_cap) : std::nullopt;
+}
+
+MeshColumns mesh_columns(const Scene& scene, Real largest_radius) {
+  HostMeshColumns columns;
+  for (const Wall& wall : scene.walls)
+    if (const auto* mesh = std::get_if<MeshObject>(&wall.geometry)) append_mesh(columns, *mesh, largest_radius);
+  return make_mesh_columns(columns);
 }
 
 Real effective_modulus(const Material& a, const Material& b) {
@@ -154,6 +164,8 @@ Model make_model(const Scene& scene, BodyColumns& columns) {
   model.scene = scene;
   model.shapes = make_shape_columns(shapes_with_objects(scene), depth_cap(scene));
   set_bodies(scene, model.bodies, columns);
+  model.meshes = mesh_columns(scene, max_of(model.bodies.bounding_radius, Real(0)));
+  model.features.has_meshes = !model.meshes.meshes.empty();
   assign(model.pairs, pair_properties(scene));
   model.material_count = static_cast<int>(scene.materials.size());
   for (const Body& body : scene.bodies)
@@ -200,6 +212,7 @@ struct Simulation::Engine {
     accounts.loss_normal.assign(model.classes.size(), 0);
     accounts.loss_shear.assign(model.classes.size(), 0);
     accounts.wall_work.assign(scene.walls.size(), 0);
+    accounts.wall_work_taken.assign(scene.walls.size(), 0);
     accounts.wall_impulse.assign(scene.walls.size(), Vec3{});
     accounts.wall_angular_impulse.assign(scene.walls.size(), Vec3{});
     const BodyEnergy energy = body_energy(model, state);
@@ -282,9 +295,12 @@ std::vector<WallLoad> Simulation::take_wall_loads() {
       loads[w].force = accounts.wall_impulse[w] / span;
       loads[w].torque = accounts.wall_angular_impulse[w] / span;
       const WallRecord& wall = engine_->state.walls.records()[w];
-      loads[w].power = -dot(loads[w].force, wall.velocity) - dot(loads[w].torque, wall.angular_velocity);
+      // A mean force and a velocity that changes make no power: what swings takes its work over the span.
+      loads[w].power = engine_->model.features.has_ledger && is_oscillating(engine_->model.scene.walls[w].motion)
+                           ? (accounts.wall_work[w] - accounts.wall_work_taken[w]) / span
+                           : -dot(loads[w].force, wall.velocity) - dot(loads[w].torque, wall.angular_velocity);
     }
-    loads[w].work = accounts.wall_work[w];
+    loads[w].work = accounts.wall_work_taken[w] = accounts.wall_work[w];
     accounts.wall_impulse[w] = accounts.wall_angular_impulse[w] = Vec3{};
   }
   accounts.wall_load_time = 0;
@@ -362,10 +378,10 @@ RunGeometry Simulation::geometry() const {
   for (std::size_t w = 0; w < model.scene.walls.size(); ++w) {
     const Wall& wall = model.scene.walls[w];
     const WallRecord& record = at_start.records()[w];
-    WallGeometry entry{wall.name,          wall.contact_class, record.kind,
-                       record.point,       record.direction,   record.length,
-                       record.base_radius, record.top_radius,  {}};
+    WallGeometry entry{wall.name,     wall.contact_class, record.kind,       record.point, record.direction,
+                       record.length, record.base_radius, record.top_radius, {},           {}};
     if (const auto* object = std::get_if<VolumeObject>(&wall.geometry)) entry.part = object->part;
+    if (const auto* mesh = std::get_if<MeshObject>(&wall.geometry)) entry.mesh = contact_surface(*mesh);
     geometry.walls.push_back(std::move(entry));
   }
   return geometry;

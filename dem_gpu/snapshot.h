@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "catalog/convex_part.h"
+#include "catalog/triangle_mesh.h"
 #include "dem_gpu/core/quaternion.h"
 #include "dem_gpu/core/vec3.h"
 
@@ -24,6 +25,7 @@ namespace dem_gpu {
 //   time_series.csv              one row per series interval, headers name[unit] (see simulation.h, SeriesRow)
 //   walls.csv                    long form: time[s],wall,force_x[N],force_y[N],force_z[N],torque_x[N m],torque_y[N m],
 //                                torque_z[N m],power[W],work[J]   (torque about the wall's rotation centre)
+//   groups.csv                   the same columns, summed over the walls that share a motion; only where some do
 //   ledger.csv                   long form: time[s],class,dissipation_normal[J],dissipation_shear[J]
 //   run.json                     summary written at the end: see RunSummary in simulation.h
 //   run.log                      passes, warnings, progress lines
@@ -36,18 +38,19 @@ struct ShapeGeometry {
   double volume = 0;                       // at scale 1 [m3]
 };
 
-enum class WallKind : int { plane = 0, disc = 1, cylinder = 2, cone = 3, volume_object = 4 };
+enum class WallKind : int { plane = 0, disc = 1, cylinder = 2, cone = 3, volume_object = 4, mesh = 5, sphere = 6 };
 
 struct WallGeometry {
   std::string name;
   std::string contact_class;
   WallKind kind = WallKind::plane;
-  Vec3 point;                // plane point, disc centre, base of cylinder and cone, at time 0 [m]
-  Vec3 direction;            // normal or axis, unit, at time 0
-  double length = 0;         // [m] cylinder, cone
-  double base_radius = 0;    // [m] disc, cylinder, cone
-  double top_radius = 0;     // [m] cone
-  catalog::ConvexPart part;  // volume objects, world frame at time 0 [m]
+  Vec3 point;                    // plane point, disc centre, base of cylinder and cone, at time 0 [m]
+  Vec3 direction;                // normal or axis, unit, at time 0
+  double length = 0;             // [m] cylinder, cone
+  double base_radius = 0;        // [m] disc, cylinder, cone
+  double top_radius = 0;         // [m] cone
+  catalog::ConvexPart part;      // volume objects, world frame at time 0 [m]
+  catalog::TriangleMesh mesh{};  // meshes: the surface that bodies touch, world frame at time 0 [m]
 };
 
 struct RunGeometry {

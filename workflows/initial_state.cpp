@@ -58,12 +58,17 @@ double distance_to(const catalog::ConvexPart& part, const Vec3& point) {
 struct ReachInto {
   Vec3 centre;
   double radius;
+  const std::optional<dem_gpu::MeshProbe>& mesh;
 
   double operator()(const dem_gpu::Plane& plane) const { return radius - dot(centre - plane.point, plane.normal); }
 
   double operator()(const dem_gpu::Disc& disc) const {
     const AxisPosition at = axis_position(centre, disc.centre, disc.normal);
     const double beside = std::max(0.0, at.off_axis - disc.radius);
+    if (disc.thickness) {
+      const double over = std::max(at.along, -*disc.thickness - at.along);
+      return radius - std::hypot(std::max(0.0, over), beside);
+    }
     // From either side: a body behind the plate is beyond it, not in it.
     return radius - std::hypot(at.along, beside);
   }
@@ -71,23 +76,38 @@ struct ReachInto {
   double operator()(const dem_gpu::Cylinder& cylinder) const {
     const AxisPosition at = axis_position(centre, cylinder.base, cylinder.axis);
     if (at.along < 0 || at.along > cylinder.length) return kClear;
-    return at.off_axis + radius - cylinder.radius;
+    return reach_beyond(at.off_axis - cylinder.radius, cylinder.solid);
   }
 
   double operator()(const dem_gpu::Cone& cone) const {
     const AxisPosition at = axis_position(centre, cone.base, cone.axis);
     if (at.along < 0 || at.along > cone.length) return kClear;
     const double slope = (cone.top_radius - cone.base_radius) / cone.length;
-    return radius - (cone.base_radius + slope * at.along - at.off_axis) / std::sqrt(1 + slope * slope);
+    return reach_beyond((at.off_axis - cone.base_radius - slope * at.along) / std::sqrt(1 + slope * slope), cone.solid);
+  }
+
+  double operator()(const dem_gpu::Ball& ball) const {
+    return reach_beyond(norm(centre - ball.centre) - ball.radius, ball.solid);
   }
 
   double operator()(const dem_gpu::VolumeObject& object) const { return radius - distance_to(object.part, centre); }
+
+  double operator()(const dem_gpu::MeshObject&) const { return radius - mesh->distance(centre); }
+
+  /// `outside`: of the centre beyond a curved surface, from its axis [m].
+  double reach_beyond(double outside, dem_gpu::SolidSide solid) const {
+    return radius + (solid == dem_gpu::SolidSide::around ? outside : -outside);
+  }
 };
 
 }  // namespace
 
-double reach_into(const dem_gpu::Wall& wall, const Vec3& centre, double radius) {
-  return std::visit(ReachInto{centre, radius}, wall.geometry);
+WallReach::WallReach(const dem_gpu::Wall& wall) : wall_(wall) {
+  if (const auto* mesh = std::get_if<dem_gpu::MeshObject>(&wall.geometry)) mesh_.emplace(*mesh);
+}
+
+double WallReach::reach_of(const Vec3& centre, double radius) const {
+  return std::visit(ReachInto{centre, radius, mesh_}, wall_.geometry);
 }
 
 std::string overlapping_balls(const std::vector<InitialBall>& balls, const std::vector<std::string>& group_names) {

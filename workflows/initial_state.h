@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "dem_gpu/mesh_probe.h"
 #include "dem_gpu/scene.h"
 
 namespace workflows {
@@ -18,8 +20,16 @@ struct InitialBall {
 /// One line on two balls of different groups that overlap; empty if none do. `group_names` for the line.
 std::string overlapping_balls(const std::vector<InitialBall>& balls, const std::vector<std::string>& group_names);
 
-/// How far the ball reaches into the wall at time 0 [m]; 0 or less if it is clear of it. Beside a surface's finite
-/// extent there is no wall.
-double reach_into(const dem_gpu::Wall& wall, const dem_gpu::Vec3& centre, double radius);
+/// How far balls reach into a wall at time 0.
+class WallReach {
+ public:
+  explicit WallReach(const dem_gpu::Wall& wall);
+  /// 0 or less if the ball is clear of the wall [m]. Beside a surface's finite extent there is no wall.
+  double reach_of(const dem_gpu::Vec3& centre, double radius) const;
+
+ private:
+  const dem_gpu::Wall& wall_;
+  std::optional<dem_gpu::MeshProbe> mesh_;
+};
 
 }  // namespace workflows

@@ -43,24 +43,58 @@ Json json_of(const FillRegion& region) {
   return {{"box", {{"min", json_of(box.low)}, {"max", json_of(box.high)}}}};
 }
 
+const char* side_of(dem_gpu::SolidSide solid) { return solid == dem_gpu::SolidSide::around ? "inside" : "outside"; }
+
+Json json_of(const dem_gpu::Motion& motion) {
+  Json json{{"angular_velocity", json_of(motion.angular_velocity)},
+            {"rotation_centre", json_of(motion.rotation_centre)},
+            {"velocity", json_of(motion.velocity)},
+            {"start", motion.start_time},
+            {"ramp", motion.ramp_time}};
+  if (motion.frequency > 0) {
+    json["amplitude"] = json_of(motion.amplitude);
+    json["angular_amplitude"] = json_of(motion.angular_amplitude);
+    json["frequency"] = motion.frequency;
+    json["phase"] = motion.phase;
+  }
+  return json;
+}
+
 struct WallJson {
   Json operator()(const dem_gpu::Plane& plane) const {
     return {{"type", "plane"}, {"point", json_of(plane.point)}, {"normal", json_of(plane.normal)}};
   }
   Json operator()(const dem_gpu::Disc& disc) const {
-    return {
+    Json json{
         {"type", "disc"}, {"centre", json_of(disc.centre)}, {"normal", json_of(disc.normal)}, {"radius", disc.radius}};
+    if (disc.thickness) json["thickness"] = *disc.thickness;
+    return json;
   }
   Json operator()(const dem_gpu::Cylinder& cylinder) const {
-    return {{"type", "cylinder"},
-            {"base", json_of(cylinder.base)},
-            {"axis", json_of(cylinder.axis)},
-            {"length", cylinder.length},
-            {"radius", cylinder.radius}};
+    return {{"type", "cylinder"},        {"base", json_of(cylinder.base)}, {"axis", json_of(cylinder.axis)},
+            {"length", cylinder.length}, {"radius", cylinder.radius},      {"bodies", side_of(cylinder.solid)}};
   }
   Json operator()(const dem_gpu::Cone& cone) const {
-    return {{"type", "cone"},        {"base", json_of(cone.base)},      {"axis", json_of(cone.axis)},
-            {"length", cone.length}, {"base_radius", cone.base_radius}, {"top_radius", cone.top_radius}};
+    return {{"type", "cone"},
+            {"base", json_of(cone.base)},
+            {"axis", json_of(cone.axis)},
+            {"length", cone.length},
+            {"base_radius", cone.base_radius},
+            {"top_radius", cone.top_radius},
+            {"bodies", side_of(cone.solid)}};
+  }
+  Json operator()(const dem_gpu::Ball& ball) const {
+    return {
+        {"type", "sphere"}, {"centre", json_of(ball.centre)}, {"radius", ball.radius}, {"bodies", side_of(ball.solid)}};
+  }
+  Json operator()(const dem_gpu::MeshObject& object) const {
+    Json json{{"type", "mesh"},
+              {"vertices", object.mesh.vertices.size()},
+              {"triangles", object.mesh.faces.size()},
+              {"bodies", object.is_container ? "inside" : "outside"}};
+    if (object.thickness) json["thickness"] = *object.thickness;
+    if (object.depth > 0) json["depth"] = object.depth;
+    return json;
   }
   Json operator()(const dem_gpu::VolumeObject& object) const {
     return {{"type", "polyhedron"}, {"vertices", object.part.vertices}};
@@ -72,13 +106,8 @@ Json json_of(const dem_gpu::Wall& wall, const Scene& scene) {
   json.update(std::visit(WallJson{}, wall.geometry));
   json["material"] = scene.materials[static_cast<std::size_t>(wall.material)].name;
   json["class"] = wall.contact_class.empty() ? wall.name : wall.contact_class;
-  const dem_gpu::Motion& motion = wall.motion;
-  if (motion.angular_velocity != Vec3{} || motion.velocity != Vec3{})
-    json["motion"] = {{"angular_velocity", json_of(motion.angular_velocity)},
-                      {"rotation_centre", json_of(motion.rotation_centre)},
-                      {"velocity", json_of(motion.velocity)},
-                      {"start", motion.start_time},
-                      {"ramp", motion.ramp_time}};
+  if (wall.motion != dem_gpu::Motion{}) json["motion"] = json_of(wall.motion);
+  if (!wall.group.empty()) json["group"] = wall.group;
   if (wall.removed_at) json["open_at"] = *wall.removed_at;
   return json;
 }

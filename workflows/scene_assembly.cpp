@@ -164,16 +164,18 @@ void refuse_bad_start(const SceneDescription& description, const AssembledScene&
   if (const std::string line = overlapping_balls(balls, names); !line.empty())
     throw catalog::InputError(description.file.string() + ": " + line);
   for (std::size_t fill = 0; fill < description.fills.size(); ++fill)
-    for (const dem_gpu::Wall& wall : assembled.scene.walls)
+    for (const dem_gpu::Wall& wall : assembled.scene.walls) {
+      const WallReach wall_reach(wall);
       for (int i = 0; i < assembled.fills[fill].bodies; ++i) {
         const InitialBall& ball = balls[static_cast<std::size_t>(assembled.fills[fill].first_body + i)];
-        const double reach = reach_into(wall, ball.centre, ball.radius);
+        const double reach = wall_reach.reach_of(ball.centre, ball.radius);
         if (reach <= kWallTolerance * ball.radius) continue;
         char depth[32];
         std::snprintf(depth, sizeof depth, "%.3g mm", reach * 1e3);
         throw catalog::InputError(description.fills[fill].place + ": a body's bounding ball reaches " + depth +
                                   " into wall \"" + wall.name + "\" at the start; shrink or move the region");
       }
+    }
 }
 
 /// Stiffness of a linear spring for which the heaviest sphere, striking a wall at `speed`, sinks in by

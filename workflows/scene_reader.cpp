@@ -188,7 +188,7 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
     scene.energy_ledger = ledger->flag("enabled", true);
     ledger->finish();
   }
-  read_walls(table, read_motions(table), scene);
+  read_walls(table, read_motions(table), base_folder, scene);
   read_outflow(table, scene);
   description.fills = read_fills(table, scene, base_folder);
   description.chains = read_chains(table, scene, base_folder);

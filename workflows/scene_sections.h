@@ -18,12 +18,13 @@ inline Point to_point(const dem_gpu::Vec3& v) { return {v.x, v.y, v.z}; }
 /// Index of the material named at `key`.
 int read_material_name(TomlTable& table, std::string_view key, const std::vector<dem_gpu::Material>& materials);
 
-/// [motion.NAME] tables, for walls to share.
+/// [motion.NAME] tables, for the walls of a group to share.
 using NamedMotions = std::map<std::string, dem_gpu::Motion>;
 NamedMotions read_motions(TomlTable& file);
 
-/// [[wall]] and [[lifters]], in this order. Refuses equal names.
-void read_walls(TomlTable& file, const NamedMotions& motions, dem_gpu::Scene& scene);
+/// [[wall]] and [[lifters]], in this order. Refuses equal names. Mesh files are sought from `base_folder`.
+void read_walls(TomlTable& file, const NamedMotions& motions, const std::filesystem::path& base_folder,
+                dem_gpu::Scene& scene);
 
 /// [[fill]].
 std::vector<FillDescription> read_fills(TomlTable& file, const dem_gpu::Scene& scene,

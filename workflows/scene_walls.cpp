@@ -6,8 +6,10 @@
 
 #include "catalog/input_error.h"
 #include "catalog/nearest_word.h"
+#include "dem_gpu/mesh_probe.h"
 #include "workflows/convex_hull.h"
 #include "workflows/scene_sections.h"
+#include "workflows/stl_file.h"
 
 namespace workflows {
 namespace {
@@ -20,33 +22,48 @@ using dem_gpu::Wall;
 constexpr double kLifterReach = 0.05;
 constexpr int kMostLifters = 1000;
 
+/// oscillate = [0, 0, "1 mm"] and swing = "2 deg" about `axis`, with frequency and phase.
+void read_oscillation(TomlTable& table, dem_gpu::Motion& motion) {
+  if (table.has("oscillate")) motion.amplitude = to_vec3(table.vector("oscillate", Dimension::length));
+  if (table.has("swing"))
+    motion.angular_amplitude = table.quantity("swing", Dimension::angle) * to_vec3(table.direction("axis"));
+  motion.frequency = table.quantity("frequency", Dimension::angular_velocity, kPositive) / (2 * std::numbers::pi);
+  motion.phase = table.quantity("phase", Dimension::angle, kAny, 0);
+}
+
 dem_gpu::Motion read_motion(TomlTable& table) {
   dem_gpu::Motion motion;
-  if (!table.has("rotate") && !table.has("translate")) table.refuse("state rotate, with axis and centre, or translate");
+  const bool oscillates = table.has("oscillate") || table.has("swing");
+  if (!table.has("rotate") && !table.has("translate") && !oscillates)
+    table.refuse("state rotate or swing, with axis and centre, translate, or oscillate");
   if (table.has("rotate")) {
     const double speed = table.quantity("rotate", Dimension::angular_velocity);
     motion.angular_velocity = speed * to_vec3(table.direction("axis"));
-    motion.rotation_centre = to_vec3(table.vector("centre", Dimension::length));
   }
+  if (table.has("rotate") || table.has("swing"))
+    motion.rotation_centre = to_vec3(table.vector("centre", Dimension::length));
   if (table.has("translate")) motion.velocity = to_vec3(table.vector("translate", Dimension::speed));
+  if (oscillates) read_oscillation(table, motion);
   motion.start_time = table.quantity("start", Dimension::time, kNotNegative, 0);
   motion.ramp_time = table.quantity("ramp", Dimension::time, kNotNegative, 0);
   table.finish();
   return motion;
 }
 
-/// `motion = "drum"` or `motion = {rotate = ...}`; at rest if absent.
-dem_gpu::Motion read_motion_of(TomlTable& table, const NamedMotions& motions) {
-  if (!table.has("motion")) return {};
+/// `motion = "drum"` or `motion = {rotate = ...}`; at rest if absent. Walls of one named motion are a group.
+void read_motion_of(TomlTable& table, const NamedMotions& motions, Wall& wall) {
+  if (!table.has("motion")) return;
   if (!table.is_text("motion")) {
     TomlTable motion = table.table("motion");
-    return read_motion(motion);
+    wall.motion = read_motion(motion);
+    return;
   }
   std::vector<std::string> names;
   for (const auto& [name, motion] : motions) names.push_back(name);
   if (names.empty())
     table.refuse("motion", "no motion is defined; add a section [motion." + table.text("motion") + "]");
-  return motions.at(names[static_cast<std::size_t>(table.choice("motion", names))]);
+  wall.group = names[static_cast<std::size_t>(table.choice("motion", names))];
+  wall.motion = motions.at(wall.group);
 }
 
 Vec3 read_point(TomlTable& table, std::string_view key) { return to_vec3(table.vector(key, Dimension::length)); }
@@ -92,8 +109,37 @@ catalog::ConvexPart read_polyhedron(TomlTable& table) {
   }
 }
 
-decltype(Wall::geometry) read_geometry(TomlTable& table) {
-  const std::vector<std::string> types{"plane", "disc", "cylinder", "cone", "block", "polyhedron"};
+/// Are the bodies inside? `bodies = "inside"` or "outside".
+bool has_bodies_inside(TomlTable& table, bool if_absent) {
+  return table.has("bodies") ? table.choice("bodies", {"inside", "outside"}) == 0 : if_absent;
+}
+
+dem_gpu::SolidSide read_solid_side(TomlTable& table) {
+  return has_bodies_inside(table, true) ? dem_gpu::SolidSide::around : dem_gpu::SolidSide::within;
+}
+
+dem_gpu::MeshObject read_mesh(TomlTable& table, const std::filesystem::path& base_folder) {
+  const std::string unit = table.text("unit");
+  const std::optional<double> metres = length_unit(unit);
+  if (!metres)
+    table.refuse("unit", "unit is \"" + unit + "\"; expected the file's unit of length, one of " +
+                             accepted_units(Dimension::length));
+  dem_gpu::MeshObject object;
+  object.thickness = table.optional_quantity("thickness", Dimension::length, kPositive);
+  object.is_container = has_bodies_inside(table, false);
+  object.depth = table.quantity("depth", Dimension::length, kNotNegative, 0);
+  const std::string file = table.text("file");
+  try {
+    object.mesh = read_stl(base_folder / file, *metres);
+    dem_gpu::MeshProbe check(object);
+  } catch (const catalog::InputError& error) {
+    table.refuse("file", error.what());
+  }
+  return object;
+}
+
+decltype(Wall::geometry) read_geometry(TomlTable& table, const std::filesystem::path& base_folder) {
+  const std::vector<std::string> types{"plane", "disc", "cylinder", "cone", "block", "polyhedron", "sphere", "mesh"};
   const auto direction = [&](const char* key) { return to_vec3(table.direction(key)); };
   const auto length = [&](const char* key) { return table.quantity(key, Dimension::length, kPositive); };
   const auto radius = [&](const char* key) { return table.quantity(key, Dimension::length, kNotNegative); };
@@ -101,20 +147,26 @@ decltype(Wall::geometry) read_geometry(TomlTable& table) {
     case 0:
       return dem_gpu::Plane{read_point(table, "point"), direction("normal")};
     case 1:
-      return dem_gpu::Disc{read_point(table, "centre"), direction("normal"), length("radius")};
+      return dem_gpu::Disc{read_point(table, "centre"), direction("normal"), length("radius"),
+                           table.optional_quantity("thickness", Dimension::length, kPositive)};
     case 2:
-      return dem_gpu::Cylinder{read_point(table, "base"), direction("axis"), length("length"), length("radius")};
+      return dem_gpu::Cylinder{read_point(table, "base"), direction("axis"), length("length"), length("radius"),
+                               read_solid_side(table)};
     case 3: {
-      const dem_gpu::Cone cone{read_point(table, "base"), direction("axis"), length("length"), radius("base_radius"),
-                               radius("top_radius")};
+      const dem_gpu::Cone cone{read_point(table, "base"), direction("axis"),    length("length"),
+                               radius("base_radius"),     radius("top_radius"), read_solid_side(table)};
       if (cone.base_radius == cone.top_radius)
         table.refuse("top_radius", "base_radius and top_radius are equal; use type = \"cylinder\"");
       return cone;
     }
     case 4:
       return dem_gpu::VolumeObject{read_block(table)};
-    default:
+    case 5:
       return dem_gpu::VolumeObject{read_polyhedron(table)};
+    case 6:
+      return dem_gpu::Ball{read_point(table, "centre"), length("radius"), read_solid_side(table)};
+    default:
+      return read_mesh(table, base_folder);
   }
 }
 
@@ -124,14 +176,15 @@ void refuse_equal_name(const TomlTable& table, const std::string& name, const st
     table.refuse("name", "two walls are named \"" + name + "\"; names must differ");
 }
 
-Wall read_wall(TomlTable& table, const NamedMotions& motions, const std::vector<dem_gpu::Material>& materials) {
+Wall read_wall(TomlTable& table, const NamedMotions& motions, const std::vector<dem_gpu::Material>& materials,
+               const std::filesystem::path& base_folder) {
   Wall wall;
   wall.name = table.text("name");
   table.rename("wall \"" + wall.name + "\"");
-  wall.geometry = read_geometry(table);
+  wall.geometry = read_geometry(table, base_folder);
   wall.material = read_material_name(table, "material", materials);
   wall.contact_class = table.text("class", "");
-  wall.motion = read_motion_of(table, motions);
+  read_motion_of(table, motions, wall);
   wall.removed_at = table.optional_quantity("open_at", Dimension::time, kNotNegative);
   table.finish();
   return wall;
@@ -199,6 +252,7 @@ void read_lifters(TomlTable& table, dem_gpu::Scene& scene) {
         table.has("material") ? read_material_name(table, "material", scene.materials) : shell_wall.material;
     lifter.contact_class = table.text("class", "lifter");
     lifter.motion = shell_wall.motion;
+    lifter.group = shell_wall.group;
     scene.walls.push_back(lifter);
   }
   table.finish();
@@ -212,9 +266,10 @@ NamedMotions read_motions(TomlTable& file) {
   return motions;
 }
 
-void read_walls(TomlTable& file, const NamedMotions& motions, dem_gpu::Scene& scene) {
+void read_walls(TomlTable& file, const NamedMotions& motions, const std::filesystem::path& base_folder,
+                dem_gpu::Scene& scene) {
   for (TomlTable& table : file.tables("wall")) {
-    Wall wall = read_wall(table, motions, scene.materials);
+    Wall wall = read_wall(table, motions, scene.materials, base_folder);
     refuse_equal_name(table, wall.name, scene.walls);
     scene.walls.push_back(std::move(wall));
   }

@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
@@ -18,6 +19,8 @@ constexpr const char* kTimeSeriesHeader =
     "removed_energy[J],imbalance[J],throughput[J],largest_overlap[-],steps_per_second[1/s]";
 constexpr const char* kWallsHeader =
     "time[s],wall,force_x[N],force_y[N],force_z[N],torque_x[N m],torque_y[N m],torque_z[N m],power[W],work[J]";
+constexpr const char* kGroupsHeader =
+    "time[s],group,force_x[N],force_y[N],force_z[N],torque_x[N m],torque_y[N m],torque_z[N m],power[W],work[J]";
 constexpr const char* kLedgerHeader = "time[s],class,dissipation_normal[J],dissipation_shear[J]";
 
 std::string cell(double value) {
@@ -38,6 +41,11 @@ std::string name_cell(const std::string& name) {
   std::string cell = "\"";
   for (const char letter : name) cell += letter == '"' ? std::string("\"\"") : std::string(1, letter);
   return cell + "\"";
+}
+
+std::string load_row(const std::string& time, const std::string& name, const dem_gpu::WallLoad& load) {
+  return row({time, name_cell(name), cell(load.force.x), cell(load.force.y), cell(load.force.z), cell(load.torque.x),
+              cell(load.torque.y), cell(load.torque.z), cell(load.power), cell(load.work)});
 }
 
 /// Header and whole rows up to a time.
@@ -76,7 +84,25 @@ RunSeries::RunSeries(const std::filesystem::path& run_folder, const dem_gpu::Sce
       time_series_(run_folder / "time_series.csv", kTimeSeriesHeader, keep_until),
       walls_(run_folder / "walls.csv", kWallsHeader, keep_until),
       ledger_(run_folder / "ledger.csv", kLedgerHeader, keep_until) {
-  for (const dem_gpu::Wall& wall : scene.walls) wall_names_.push_back(wall.name);
+  for (const dem_gpu::Wall& wall : scene.walls) {
+    wall_names_.push_back(wall.name);
+    wall_groups_.push_back(wall.group);
+    if (!wall.group.empty() && !groups_) groups_.emplace(run_folder / "groups.csv", kGroupsHeader, keep_until);
+  }
+}
+
+void RunSeries::append_groups(const std::string& time, const std::vector<dem_gpu::WallLoad>& loads) {
+  std::map<std::string, dem_gpu::WallLoad> sums;
+  for (std::size_t wall = 0; wall < loads.size(); ++wall) {
+    if (wall_groups_[wall].empty()) continue;
+    dem_gpu::WallLoad& sum = sums[wall_groups_[wall]];
+    sum.force += loads[wall].force;
+    sum.torque += loads[wall].torque;
+    sum.power += loads[wall].power;
+    sum.work += loads[wall].work;
+  }
+  for (const auto& [group, load] : sums) groups_->append(load_row(time, group, load));
+  groups_->flush();
 }
 
 void RunSeries::append(dem_gpu::Simulation& simulation, const dem_gpu::EnergyLedger& ledger, double steps_per_second) {
@@ -95,12 +121,8 @@ void RunSeries::append(dem_gpu::Simulation& simulation, const dem_gpu::EnergyLed
        cell(normal), cell(shear), cell(ledger.wall_work), cell(ledger.removed), cell(ledger.imbalance()),
        cell(ledger.throughput), cell(simulation.quality().largest_overlap), cell(steps_per_second)}));
   const std::vector<dem_gpu::WallLoad> loads = simulation.take_wall_loads();
-  for (std::size_t wall = 0; wall < loads.size(); ++wall) {
-    const dem_gpu::WallLoad& load = loads[wall];
-    walls_.append(
-        row({time, name_cell(wall_names_[wall]), cell(load.force.x), cell(load.force.y), cell(load.force.z),
-             cell(load.torque.x), cell(load.torque.y), cell(load.torque.z), cell(load.power), cell(load.work)}));
-  }
+  for (std::size_t wall = 0; wall < loads.size(); ++wall) walls_.append(load_row(time, wall_names_[wall], loads[wall]));
+  if (groups_) append_groups(time, loads);
   time_series_.flush();
   walls_.flush();
   ledger_.flush();

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,7 +24,7 @@ class SeriesFile {
   std::ofstream stream_;
 };
 
-/// time_series.csv, walls.csv and ledger.csv of a run folder.
+/// time_series.csv, walls.csv, ledger.csv and, where walls share a named motion, groups.csv of a run folder.
 class RunSeries {
  public:
   RunSeries(const std::filesystem::path& run_folder, const dem_gpu::Scene& scene, double keep_until);
@@ -32,9 +33,12 @@ class RunSeries {
   void append(dem_gpu::Simulation& simulation, const dem_gpu::EnergyLedger& ledger, double steps_per_second);
 
  private:
-  std::vector<std::string> wall_names_;
+  void append_groups(const std::string& time, const std::vector<dem_gpu::WallLoad>& loads);
+
+  std::vector<std::string> wall_names_, wall_groups_;
   bool has_ledger_;
   SeriesFile time_series_, walls_, ledger_;
+  std::optional<SeriesFile> groups_;  // where walls share a motion
 };
 
 }  // namespace workflows

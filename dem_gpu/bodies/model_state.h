@@ -8,6 +8,7 @@
 #include "dem_gpu/bodies/body_columns.h"
 #include "dem_gpu/contacts/contact_columns.h"
 #include "dem_gpu/contacts/friction/friction_contact.h"
+#include "dem_gpu/meshes/mesh_columns.h"
 #include "dem_gpu/scene.h"
 #include "dem_gpu/shapes/shape_columns.h"
 #include "dem_gpu/simulation.h"
@@ -19,6 +20,7 @@ namespace dem_gpu {
 struct Model {
   Scene scene;
   ShapeColumns shapes;  // the scene's shapes, then one per volume object
+  MeshColumns meshes;   // one per mesh wall
   BodyConstants bodies;
   DeviceVector<PairProperties> pairs;  // n_materials x n_materials
   int material_count = 0;
@@ -39,6 +41,7 @@ struct ContactRange {
 struct Accounts {
   std::vector<double> loss_normal, loss_shear;           // per class [J]
   std::vector<double> wall_work;                         // per wall, since time 0 [J]
+  std::vector<double> wall_work_taken;                   // per wall, of wall_work when loads were last taken [J]
   std::vector<Vec3> wall_impulse, wall_angular_impulse;  // per wall, since last taken [N s], [N m s]
   double wall_load_time = 0;                             // since last taken [s]
   double initial_kinetic = 0;                            // [J]

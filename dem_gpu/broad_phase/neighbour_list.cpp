@@ -8,6 +8,7 @@
 #include "dem_gpu/broad_phase/cell_grid.h"
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/energy/energy_watch.h"
+#include "dem_gpu/meshes/facet_lists.h"
 #include "dem_gpu/walls/wall_surface.h"
 
 namespace dem_gpu {
@@ -23,15 +24,25 @@ TALUS_HD ContactKey pair_key(const ShapeRange* shapes, const int* shape, int i, 
 
 TALUS_HD ContactKey wall_key(const ShapeRange* shapes, int shape, const WallRecord& wall, int body, int index) {
   const bool is_sphere = shapes[shape].part_count == 0;
-  const ContactKind kind = wall.kind == WallKind::volume_object
-                               ? (is_sphere ? ContactKind::sphere_object : ContactKind::polyhedron_object)
-                               : (is_sphere ? ContactKind::sphere_wall : ContactKind::polyhedron_wall);
+  ContactKind kind = is_sphere ? ContactKind::sphere_wall : ContactKind::polyhedron_wall;
+  if (wall.kind == WallKind::volume_object)
+    kind = is_sphere ? ContactKind::sphere_object : ContactKind::polyhedron_object;
+  if (wall.kind == WallKind::mesh) kind = is_sphere ? ContactKind::sphere_mesh : ContactKind::polyhedron_mesh;
   return contact_key(kind, body, index);
 }
 
 /// May a ball of radius `reach` about x touch the wall?
-TALUS_HD bool is_near_wall(const ShapeView& shapes, const WallRecord& wall, const Vec3& x, Real reach) {
+TALUS_HD bool is_near_wall(const ShapeView& shapes, const MeshView& meshes, const WallRecord& wall, const Vec3& x,
+                           Real reach) {
   if (!wall.is_present) return false;
+  if (wall.kind == WallKind::mesh) {
+    bool is_near = false;
+    visit_facets_near(meshes, wall.mesh, rotate_back(wall.orientation, x - wall.point), reach, [&](int /*facet*/) {
+      is_near = true;
+      return false;
+    });
+    return is_near;
+  }
   if (wall.kind == WallKind::volume_object) {
     const PartView part = part_view(shapes, shapes.shapes[wall.shape].first_part);
     const Vec3 local = rotate_back(wall.orientation, x - wall.point);
@@ -47,6 +58,7 @@ TALUS_HD bool is_near_wall(const ShapeView& shapes, const WallRecord& wall, cons
 struct ListPairs {
   BodyView bodies;
   ShapeView shapes;
+  MeshView meshes;
   CellGrid::View grid;
   const WallRecord* walls;
   int wall_count;
@@ -68,7 +80,7 @@ struct ListPairs {
         ++count;
       });
       for (int w = 0; w < wall_count && !bodies.is_fixed(i); ++w) {
-        if (!is_near_wall(shapes, walls[w], x, radius + skin)) continue;
+        if (!is_near_wall(shapes, meshes, walls[w], x, radius + skin)) continue;
         if (out) out[count] = wall_key(shapes.shapes, bodies.shape[i], walls[w], i, w);
         ++count;
       }
@@ -172,8 +184,9 @@ DeviceVector<ContactKey> candidate_keys(const Model& model, State& state) {
   CellGrid grid;
   grid.build(bodies, reach);
   DeviceVector<int> first(static_cast<std::size_t>(bodies.count) + 1, 0);
-  ListPairs list{bodies,     view(model.shapes), grid.view(), state.walls.device(), state.walls.count(),
-                 model.skin, pointer(first),     nullptr};
+  ListPairs list{bodies,      view(model.shapes),   view(model.meshes),
+                 grid.view(), state.walls.device(), state.walls.count(),
+                 model.skin,  pointer(first),       nullptr};
   parallel_for(0, bodies.count, list);
   DeviceVector<ContactKey> keys(static_cast<std::size_t>(exclusive_scan(first)));
   list.keys = pointer(keys);
@@ -249,6 +262,7 @@ void build_neighbour_list(const Model& model, State& state) {
     parallel_for(0, count, CountPartPairs{view(next), bodies, pointer(model.shapes.shapes), state.walls.device()});
     next.separating.assign(static_cast<std::size_t>(exclusive_scan(next.cache_begin)), SeparatingPlane{0});
   }
+  if (model.features.has_meshes) list_facets(model, state, next);
   const int old_count = static_cast<int>(state.contacts.key.size());
   if (old_count > 0) parallel_for(0, count, CarryHistory{view(state.contacts), view(next), old_count, model.features});
   state.contacts = std::move(next);

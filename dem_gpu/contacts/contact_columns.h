@@ -18,8 +18,10 @@ enum class ContactKind : int {
   polyhedron_object,  // convex volume object
   sphere_wall,
   sphere_object,
+  polyhedron_mesh,  // triangle mesh
+  sphere_mesh,
 };
-inline constexpr int kContactKinds = 7;
+inline constexpr int kContactKinds = 9;
 
 /// Key of a candidate pair: kind, a, b. Sorted keys make every sum over contacts run in one fixed order.
 using ContactKey = std::uint64_t;
@@ -30,6 +32,7 @@ TALUS_HD inline int key_body_a(ContactKey key) { return static_cast<int>((key >>
 TALUS_HD inline int key_body_b(ContactKey key) { return static_cast<int>(key & 0x3fffffff); }
 TALUS_HD inline ContactKind key_kind(ContactKey key) { return static_cast<ContactKind>(key >> 60); }
 TALUS_HD inline bool is_wall_kind(ContactKind kind) { return kind >= ContactKind::polyhedron_wall; }
+TALUS_HD inline bool is_mesh_kind(ContactKind kind) { return kind >= ContactKind::polyhedron_mesh; }
 
 /// Candidate pairs and what they carry from step to step, one entry each (n_contacts). Optional columns have length 0
 /// where the scene has no use for them.
@@ -46,6 +49,9 @@ struct ContactColumns {
   DeviceVector<int> cache_begin;             // first entry in separating, polyhedron pairs
   DeviceVector<SeparatingPlane> separating;  // one per pair of parts, all candidate pairs end to end
 
+  // With meshes.
+  DeviceVector<int> facet_begin;  // first entry in facet, n_contacts + 1; empty lists for other kinds
+  DeviceVector<int> facet;        // facets that the body may touch, ascending, all lists end to end
   // With spheres.
   DeviceVector<Real> owed_kick;  // loss of approach speed of the last step that the next one takes [m/s]
 
@@ -88,6 +94,8 @@ struct ContactView {
   char* is_truncated;
   int* cache_begin;
   SeparatingPlane* separating;
+  const int* facet_begin;
+  const int* facet;
   Real* owed_kick;
   Vec3* tangential_displacement;
   Vec3* turning_displacement;
@@ -117,6 +125,7 @@ struct ContactFeatures {
   bool has_polyhedra = false;
   bool has_friction_couples = false;
   bool has_spheres = false;
+  bool has_meshes = false;
 };
 
 /// All columns for `count` contacts, zero.

@@ -22,6 +22,7 @@ struct ContactScene {
   ContactView contacts;
   BodyView bodies;
   ShapeView shapes;
+  MeshView meshes;
   const WallRecord* walls;
   const PairProperties* pairs;
   int material_count;
@@ -37,9 +38,9 @@ struct ContactScene {
 
 inline ContactScene contact_scene(const Model& model, State& state) {
   return {view(state.contacts), view(model.bodies, state.bodies),
-          view(model.shapes),   state.walls.device(),
-          pointer(model.pairs), model.material_count,
-          model.time_step};
+          view(model.shapes),   view(model.meshes),
+          state.walls.device(), pointer(model.pairs),
+          model.material_count, model.time_step};
 }
 
 /// What stands on side b of a contact.
@@ -49,6 +50,13 @@ struct BodyPartner {
 struct WallPartner {
   static constexpr bool kIsWall = true;
 };
+
+/// Not part of the kernel, so that the contact is the same with a record and without.
+template <class Geometry, class Patch>
+TALUS_HD TALUS_ONE_COPY bool find_contact(const Geometry& geometry, const ContactScene& scene, int c, int a, int b,
+                                          ElasticContact& elastic, Patch& patch) {
+  return geometry.find(scene, c, a, b, elastic, patch);
+}
 
 /// One contact a thread: `Geometry` finds the elastic contact, the response completes it.
 template <class Geometry, class Friction, class Record>
@@ -62,7 +70,7 @@ struct ComputeContact {
     const int a = key_body_a(key), b = key_body_b(key);
     ElasticContact elastic;
     typename Friction::Patch patch;
-    const bool is_touching = geometry.find(scene, c, a, b, elastic, patch);
+    const bool is_touching = find_contact(geometry, scene, c, a, b, elastic, patch);
     if (!is_touching && scene.contacts.depth[c] == 0) return;
     const ContactSide side_a = body_side(scene.bodies, a);
     const ContactSide side_b = other_side(b);

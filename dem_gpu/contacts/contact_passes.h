@@ -16,5 +16,7 @@ std::unique_ptr<Pass> make_sphere_contacts_pass(const Scene& scene);            
 std::unique_ptr<Pass> make_sphere_polyhedron_contacts_pass(const Scene& scene);  // sphere_polyhedron
 std::unique_ptr<Pass> make_sphere_wall_contacts_pass(const Scene& scene);        // sphere_wall
 std::unique_ptr<Pass> make_sphere_object_contacts_pass(const Scene& scene);      // sphere_object
+std::unique_ptr<Pass> make_polyhedron_mesh_contacts_pass(const Scene& scene);    // polyhedron_mesh
+std::unique_ptr<Pass> make_sphere_mesh_contacts_pass(const Scene& scene);        // sphere_mesh
 
 }  // namespace dem_gpu

@@ -49,7 +49,14 @@ TALUS_HD inline ContactSide body_side(const BodyView& bodies, int body) {
 }
 
 TALUS_HD inline ContactSide wall_side(const WallRecord& wall) {
-  return {wall.rotation_centre, wall.velocity, wall.angular_velocity, wall.velocity, wall.angular_velocity, 0, {}, {}};
+  return {wall.rotation_centre,
+          wall.velocity,
+          wall.angular_velocity,
+          wall.mean_velocity,
+          wall.mean_angular_velocity,
+          0,
+          {},
+          {}};
 }
 
 struct NoWorkRecord {
@@ -62,6 +69,7 @@ struct WorkRecord {
 struct ContactForces {
   Vec3 damping;             // on a [N]
   FrictionForces friction;  // on a
+  Real effective_mass = 0;  // that an impulse along the normal meets [kg]
 };
 
 /// Work of the step that ends now, by the trapezoidal rule over the mean velocities: the same quadrature as the
@@ -127,13 +135,11 @@ TALUS_HD void end_contact(const ContactView& contacts, int c, const ContactSide&
   contacts.depth[c] = 0;
 }
 
-/// Friction of contact c from the sides' motion. Not part of respond, so that motion is the same with a record and
-/// without.
+/// Friction of contact c from the sides' motion.
 template <class Friction>
-TALUS_HD TALUS_ONE_COPY FrictionForces friction_forces(const ContactView& contacts, int c, FrictionContact contact,
-                                                       const ContactSide& a, const ContactSide& b,
-                                                       const Friction& friction,
-                                                       const typename Friction::Patch& patch) {
+TALUS_HD FrictionForces friction_forces(const ContactView& contacts, int c, FrictionContact contact,
+                                        const ContactSide& a, const ContactSide& b, const Friction& friction,
+                                        const typename Friction::Patch& patch) {
   const Vec3& point = contact.elastic.point;
   contact.mean = {a.mean_velocity_at(point) - b.mean_velocity_at(point),
                   a.mean_angular_velocity - b.mean_angular_velocity};
@@ -149,40 +155,44 @@ TALUS_HD inline Real turning(const ElasticContact& elastic, const Vec3& velocity
   return -elastic.curvature * (norm_squared(velocity) - along * along);
 }
 
-/// Completes a touching contact: damping, friction, forces on both sides, history, work.
-template <class Damping, class Friction, class Record>
-TALUS_HD void respond(const ContactView& contacts, int c, ElasticContact& elastic, const ContactSide& a,
-                      const ContactSide& b, const PairProperties& pair, const Friction& friction,
-                      const typename Friction::Patch& patch, Real time_step, Real diameter) {
+/// Forces besides the elastic one, which damping may refine. Not part of respond, nor is write_contact, so that motion
+/// is the same with a record and without.
+template <class Damping, class Friction>
+TALUS_HD TALUS_ONE_COPY ContactForces contact_forces(const ContactView& contacts, int c, ElasticContact& elastic,
+                                                     const ContactSide& a, const ContactSide& b,
+                                                     const PairProperties& pair, const Friction& friction,
+                                                     const typename Friction::Patch& patch, Real time_step,
+                                                     Real diameter) {
   const Vec3 slip = a.predicted_velocity_at(elastic.point) - b.predicted_velocity_at(elastic.point);
   const Vec3 mean_slip = a.mean_velocity_at(elastic.point) - b.mean_velocity_at(elastic.point);
-  const Real effective_mass = 1 / (a.inverse_effective_mass(elastic.point, elastic.normal) +
-                                   b.inverse_effective_mass(elastic.point, elastic.normal));
   ContactForces forces;
-  const Real damping =
-      Damping::apply(contacts, c, elastic,
-                     NormalImpact{pair, effective_mass, dot(mean_slip, elastic.normal), dot(slip, elastic.normal),
-                                  turning(elastic, a.mean_velocity - b.mean_velocity), time_step});
+  forces.effective_mass = 1 / (a.inverse_effective_mass(elastic.point, elastic.normal) +
+                               b.inverse_effective_mass(elastic.point, elastic.normal));
+  const Real damping = Damping::apply(
+      contacts, c, elastic,
+      NormalImpact{pair, forces.effective_mass, dot(mean_slip, elastic.normal), dot(slip, elastic.normal),
+                   turning(elastic, a.mean_velocity - b.mean_velocity), time_step});
   forces.damping = -damping * elastic.normal;
   if constexpr (Friction::kEnabled)
-    forces.friction =
-        friction_forces(contacts, c, FrictionContact{elastic, pair, damping, effective_mass, diameter, time_step}, a, b,
-                        friction, patch);
-  const Vec3 elastic_torque_b = cross(b.centre - a.centre, elastic.force) - elastic.torque_a;
-  if constexpr (Record::kEnabled) {
-    const StepWork work = step_work<Friction>(contacts, c, elastic, elastic_torque_b, forces, a, b, time_step);
-    record_work(contacts, c, work, forces.friction.energy, true, is_wall_kind(key_kind(contacts.key[c])));
-    contacts.last_elastic_force[c] = elastic.force;
-    contacts.last_elastic_torque_a[c] = elastic.torque_a;
-    contacts.last_elastic_torque_b[c] = elastic_torque_b;
-    contacts.last_damping_force[c] = forces.damping;
-    contacts.last_friction_force[c] = forces.friction.force;
-    if constexpr (Friction::kHasCouple) contacts.last_friction_couple[c] = forces.friction.couple;
-  }
+    forces.friction = friction_forces(
+        contacts, c, FrictionContact{elastic, pair, damping, forces.effective_mass, diameter, time_step}, a, b,
+        friction, patch);
+  return forces;
+}
+
+TALUS_HD inline Vec3 elastic_torque_on_b(const ElasticContact& elastic, const ContactSide& a, const ContactSide& b) {
+  return cross(b.centre - a.centre, elastic.force) - elastic.torque_a;
+}
+
+/// Forces on both sides, and what is kept of the contact.
+template <class Friction>
+TALUS_HD TALUS_ONE_COPY void write_contact(const ContactView& contacts, int c, const ElasticContact& elastic,
+                                           const ContactForces& forces, const ContactSide& a, const ContactSide& b,
+                                           Real time_step, Real diameter) {
   const Vec3 at_point = forces.damping + forces.friction.force;
   contacts.force[c] = elastic.force + at_point;
   contacts.torque_a[c] = elastic.torque_a + cross(elastic.point - a.centre, at_point);
-  contacts.torque_b[c] = elastic_torque_b - cross(elastic.point - b.centre, at_point);
+  contacts.torque_b[c] = elastic_torque_on_b(elastic, a, b) - cross(elastic.point - b.centre, at_point);
   if constexpr (Friction::kHasCouple) {
     contacts.torque_a[c] += forces.friction.couple;
     contacts.torque_b[c] -= forces.friction.couple;
@@ -190,11 +200,32 @@ TALUS_HD void respond(const ContactView& contacts, int c, ElasticContact& elasti
   contacts.point[c] = elastic.point;
   contacts.depth[c] = elastic.depth;
   contacts.peak_overlap[c] = std::max(contacts.peak_overlap[c], elastic.depth / diameter);
-  contacts.peak_rate[c] = std::max(contacts.peak_rate[c], elastic.stiffness / effective_mass);
+  contacts.peak_rate[c] = std::max(contacts.peak_rate[c], elastic.stiffness / forces.effective_mass);
   if (is_wall_kind(key_kind(contacts.key[c]))) {
     contacts.wall_impulse[c] -= time_step * contacts.force[c];
     contacts.wall_angular_impulse[c] += time_step * contacts.torque_b[c];
   }
+}
+
+/// Completes a touching contact: damping, friction, forces on both sides, history, work.
+template <class Damping, class Friction, class Record>
+TALUS_HD void respond(const ContactView& contacts, int c, ElasticContact& elastic, const ContactSide& a,
+                      const ContactSide& b, const PairProperties& pair, const Friction& friction,
+                      const typename Friction::Patch& patch, Real time_step, Real diameter) {
+  const ContactForces forces =
+      contact_forces<Damping>(contacts, c, elastic, a, b, pair, friction, patch, time_step, diameter);
+  if constexpr (Record::kEnabled) {
+    const Vec3 torque_b = elastic_torque_on_b(elastic, a, b);
+    const StepWork work = step_work<Friction>(contacts, c, elastic, torque_b, forces, a, b, time_step);
+    record_work(contacts, c, work, forces.friction.energy, true, is_wall_kind(key_kind(contacts.key[c])));
+    contacts.last_elastic_force[c] = elastic.force;
+    contacts.last_elastic_torque_a[c] = elastic.torque_a;
+    contacts.last_elastic_torque_b[c] = torque_b;
+    contacts.last_damping_force[c] = forces.damping;
+    contacts.last_friction_force[c] = forces.friction.force;
+    if constexpr (Friction::kHasCouple) contacts.last_friction_couple[c] = forces.friction.couple;
+  }
+  write_contact<Friction>(contacts, c, elastic, forces, a, b, time_step, diameter);
 }
 
 }  // namespace dem_gpu

@@ -38,8 +38,18 @@ struct SphereWallGeometry {
     const WallRecord& wall = scene.walls[b];
     const Real radius = scene.bodies.bounding_radius[a];
     const SurfaceDistance surface = surface_distance(wall, scene.bodies.position[a]);
+    if (surface.rim >= 0 && is_held_beside(scene, b, scene.bodies.position[a], surface)) return false;
     return sphere_contact(law, scene.bodies.position[a], radius, {-surface.depth, surface.into_wall, radius},
                           scene.pair(scene.bodies.material[a], wall.material), elastic, patch);
+  }
+
+  /// Where two walls share a rim, the nearest point on it counts once, and not at all if the other wall comes nearer.
+  TALUS_HD static bool is_held_beside(const ContactScene& scene, int wall, const Vec3& x,
+                                      const SurfaceDistance& surface) {
+    const int other = scene.walls[wall].rim_neighbour[surface.rim];
+    if (other < 0 || !scene.walls[other].is_present) return false;
+    const SurfaceDistance beside = surface_distance(scene.walls[other], x);
+    return beside.rim < 0 || other < wall;
   }
 };
 

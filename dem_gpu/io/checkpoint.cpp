@@ -14,7 +14,7 @@ namespace dem_gpu {
 namespace {
 
 constexpr const char* kKind = "talus-checkpoint";
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 constexpr std::int64_t kLocalRealBytes = sizeof(LocalReal);
 
 /// A whole checkpoint that does not fit the simulation: no reason to look at an earlier one.
@@ -48,6 +48,8 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("contacts/is_truncated", c.is_truncated);
   visit("contacts/cache_begin", c.cache_begin);
   visit("contacts/separating", c.separating);
+  visit("contacts/facet_begin", c.facet_begin);
+  visit("contacts/facet", c.facet);
   visit("contacts/owed_kick", c.owed_kick);
   visit("contacts/tangential_displacement", c.tangential_displacement);
   visit("contacts/turning_displacement", c.turning_displacement);
@@ -71,6 +73,7 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("accounts/loss_normal", a.loss_normal);
   visit("accounts/loss_shear", a.loss_shear);
   visit("accounts/wall_work", a.wall_work);
+  visit("accounts/wall_work_taken", a.wall_work_taken);
   visit("accounts/wall_impulse", a.wall_impulse);
   visit("accounts/wall_angular_impulse", a.wall_angular_impulse);
 }
@@ -130,6 +133,8 @@ std::int64_t fingerprint(const Model& model) {
   for (const Body& body : model.scene.bodies) mix(&body.is_fixed, sizeof(bool));
   mix_all(to_host(model.shapes.vertices));
   mix_all(to_host(model.shapes.depth_planes));
+  mix_all(to_host(model.meshes.planes));
+  mix_all(to_host(model.meshes.vertices));
   const WallSet at_start(model.scene, static_cast<int>(model.scene.shapes.size()));
   for (std::size_t w = 0; w < model.scene.walls.size(); ++w) {
     const Wall& wall = model.scene.walls[w];
@@ -138,7 +143,8 @@ std::int64_t fingerprint(const Model& model) {
     mix(&wall.motion, sizeof(Motion));
     const WallRecord& record = at_start.records()[w];
     for (const Real value : {static_cast<Real>(record.kind), static_cast<Real>(wall.material), record.length,
-                             record.base_radius, record.top_radius, wall.removed_at.value_or(Real(-1))})
+                             record.base_radius, record.top_radius, record.thickness,
+                             static_cast<Real>(record.solid_within), wall.removed_at.value_or(Real(-1))})
       mix(&value, sizeof(value));
     mix(&record.point, sizeof(Vec3));
     mix(&record.direction, sizeof(Vec3));
@@ -146,7 +152,7 @@ std::int64_t fingerprint(const Model& model) {
   if (model.scene.outflow) mix(&*model.scene.outflow, sizeof(Outflow));
   const ContactFeatures& features = model.features;
   for (const bool has : {features.has_friction, features.has_ledger, features.has_walls, features.has_polyhedra,
-                         features.has_friction_couples, features.has_spheres})
+                         features.has_friction_couples, features.has_spheres, features.has_meshes})
     mix(&has, sizeof(has));
   if (model.scene.friction) mix(&*model.scene.friction, sizeof(Friction));
   const std::size_t law = model.scene.polyhedral_law.index();

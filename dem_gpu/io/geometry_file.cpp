@@ -10,7 +10,7 @@ namespace dem_gpu {
 namespace {
 
 constexpr const char* kKind = "geometry";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 /// All convex parts of the file in one flat table: offsets of part p run from [p] to [p + 1].
 struct PartTable {
@@ -137,6 +137,42 @@ std::vector<ShapeGeometry> read_shapes(const io::Hdf5Reader& file, const PartTab
   return shapes;
 }
 
+/// Meshes of all walls end to end; wall w has vertices and faces [w] to [w + 1] of the offsets.
+void write_meshes(io::Hdf5Writer& file, const std::vector<WallGeometry>& walls) {
+  std::vector<std::int32_t> vertex_offset{0}, face_offset{0}, faces;
+  std::vector<double> vertices;
+  for (const WallGeometry& wall : walls) {
+    for (const catalog::Point& vertex : wall.mesh.vertices)
+      vertices.insert(vertices.end(), vertex.begin(), vertex.end());
+    for (const catalog::Triangle& face : wall.mesh.faces) faces.insert(faces.end(), face.begin(), face.end());
+    vertex_offset.push_back(static_cast<std::int32_t>(vertices.size() / 3));
+    face_offset.push_back(static_cast<std::int32_t>(faces.size() / 3));
+  }
+  file.write("walls/mesh_vertex_offset", vertex_offset);
+  file.write("walls/mesh_vertices", vertices, 3);
+  file.write("walls/mesh_face_offset", face_offset);
+  file.write("walls/mesh_faces", faces, 3);
+}
+
+void read_meshes(const io::Hdf5Reader& file, std::vector<WallGeometry>& walls) {
+  const io::ArrayShape offsets{walls.size() + 1, 1};
+  const auto vertex_offset = file.read<std::int32_t>("walls/mesh_vertex_offset", offsets);
+  const auto face_offset = file.read<std::int32_t>("walls/mesh_face_offset", offsets);
+  const auto vertices = file.read<double>("walls/mesh_vertices", 3);
+  const auto faces = file.read<std::int32_t>("walls/mesh_faces", 3);
+  check_offsets(file, "walls/mesh_vertex_offset", vertex_offset, vertices.size() / 3);
+  check_offsets(file, "walls/mesh_face_offset", face_offset, faces.size() / 3);
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    catalog::TriangleMesh& mesh = walls[w].mesh;
+    for (int v = vertex_offset[w]; v < vertex_offset[w + 1]; ++v)
+      mesh.vertices.push_back({vertices[3 * v], vertices[3 * v + 1], vertices[3 * v + 2]});
+    const int first = face_offset[w], last = face_offset[w + 1];
+    check_indices(file, "walls/mesh_faces", std::span(faces).subspan(3 * first, 3 * (last - first)), 0,
+                  static_cast<int>(mesh.vertices.size()));
+    for (int f = first; f < last; ++f) mesh.faces.push_back({faces[3 * f], faces[3 * f + 1], faces[3 * f + 2]});
+  }
+}
+
 void write_walls(io::Hdf5Writer& file, const std::vector<WallGeometry>& walls, PartTable& parts) {
   std::vector<std::string> names, classes;
   std::vector<std::int32_t> kinds, part_index;
@@ -158,6 +194,7 @@ void write_walls(io::Hdf5Writer& file, const std::vector<WallGeometry>& walls, P
   file.write("walls/direction", io::rows_of(directions), 3);
   file.write("walls/length_radii", sizes, 3);
   file.write("walls/part", part_index);
+  write_meshes(file, walls);
 }
 
 std::vector<WallGeometry> read_walls(const io::Hdf5Reader& file, const PartTable& parts) {
@@ -170,7 +207,7 @@ std::vector<WallGeometry> read_walls(const io::Hdf5Reader& file, const PartTable
   const auto directions = io::vectors_of(file.read<double>("walls/direction", io::ArrayShape{count, 3}));
   const auto sizes = file.read<double>("walls/length_radii", io::ArrayShape{count, 3});
   const auto part_index = file.read<std::int32_t>("walls/part", io::ArrayShape{count, 1});
-  check_indices(file, "walls/kind", kinds, 0, static_cast<int>(WallKind::volume_object) + 1);
+  check_indices(file, "walls/kind", kinds, 0, static_cast<int>(WallKind::sphere) + 1);
   check_indices(file, "walls/part", part_index, -1, parts.part_count());
   std::vector<WallGeometry> walls(count);
   for (std::size_t w = 0; w < count; ++w) {
@@ -184,6 +221,7 @@ std::vector<WallGeometry> read_walls(const io::Hdf5Reader& file, const PartTable
     walls[w].top_radius = sizes[3 * w + 2];
     if (part_index[w] >= 0) walls[w].part = parts.part(part_index[w]);
   }
+  read_meshes(file, walls);
   return walls;
 }
 

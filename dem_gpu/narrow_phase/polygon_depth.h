@@ -99,11 +99,10 @@ TALUS_HD inline HalfSpace lower_side(const HalfSpace& low, const HalfSpace& high
   return {high.normal - low.normal, high.offset - low.offset};
 }
 
-/// Adds the least depth below `planes` over a polygon: one closed form where one plane is least at all corners, else
-/// piece by piece over the cells in which each plane is the least. The lower index owns a tie.
-template <class Sum>
-TALUS_HD void add_least_depth(const Polygon& polygon, const HalfSpace* planes, int plane_count, const Vec3& normal,
-                              Sum& sum) {
+/// Cuts a polygon into the pieces on which each of `planes` is the one it lies least deep below: visitor(piece, plane).
+/// One piece where one plane is least at all corners. The lower index owns a tie.
+template <class Visitor>
+TALUS_HD void visit_least_depth(const Polygon& polygon, const HalfSpace* planes, int plane_count, Visitor&& visitor) {
   // A plane is no candidate if another one is below it at every corner: it suffices to compare with the plane whose
   // largest depth is least.
   constexpr int kLargest = kMostPlanesOnPolygon;
@@ -125,7 +124,7 @@ TALUS_HD void add_least_depth(const Polygon& polygon, const HalfSpace* planes, i
   for (int i = 0; i < plane_count; ++i)
     if (i == flattest || smallest[i] < least_largest) candidate[count++] = static_cast<std::int16_t>(i);
   if (count == 1) {
-    add_linear_depth(polygon, planes[candidate[0]], normal, sum);
+    visitor(polygon, planes[candidate[0]]);
     return;
   }
   Polygon buffer[2];
@@ -134,10 +133,18 @@ TALUS_HD void add_least_depth(const Polygon& polygon, const HalfSpace* planes, i
     ShrinkingPolygon cell{&polygon, buffer};
     for (int m = 0; m < count && cell.piece; ++m)
       if (m != k) cell.keep(lower_side(own, planes[candidate[m]]), k < m);
-    if (!cell.piece) continue;
-    if (cell.piece->is_truncated) sum.is_truncated = true;
-    add_linear_depth(*cell.piece, own, normal, sum);
+    if (cell.piece) visitor(*cell.piece, own);
   }
+}
+
+/// Adds the least depth below `planes` over a polygon.
+template <class Sum>
+TALUS_HD void add_least_depth(const Polygon& polygon, const HalfSpace* planes, int plane_count, const Vec3& normal,
+                              Sum& sum) {
+  visit_least_depth(polygon, planes, plane_count, [&](const Polygon& piece, const HalfSpace& plane) {
+    if (piece.is_truncated) sum.is_truncated = true;
+    add_linear_depth(piece, plane, normal, sum);
+  });
 }
 
 /// A depth field over one polygon: its planes, and the terms that change from one of their planes to another there.

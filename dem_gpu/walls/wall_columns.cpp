@@ -4,32 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "dem_gpu/walls/wall_motion.h"
+
 namespace dem_gpu {
 namespace {
 
-/// Integral of the speed ramp from start_time: the time at full speed that gives the same travel [s].
-Real effective_time(const Motion& motion, Real time) {
-  const Real elapsed = time - motion.start_time;
-  if (elapsed <= 0) return 0;
-  if (motion.ramp_time <= 0) return elapsed;
-  if (elapsed < motion.ramp_time) return elapsed * elapsed / (2 * motion.ramp_time);
-  return elapsed - motion.ramp_time / 2;
-}
-
-Real speed_share(const Motion& motion, Real time) {
-  const Real elapsed = time - motion.start_time;
-  if (elapsed <= 0) return 0;
-  return motion.ramp_time > 0 ? std::min(Real(1), elapsed / motion.ramp_time) : Real(1);
-}
-
-Quaternion rotation_at(const Motion& motion, Real time) {
-  const Real rate = norm(motion.angular_velocity);
-  if (rate == 0) return {};
-  return axis_angle(motion.angular_velocity / rate, rate * effective_time(motion, time));
-}
-
 struct MakeRecord {
   int next_shape;
+  int next_mesh;
 
   WallRecord operator()(const Plane& plane) const {
     WallRecord record;
@@ -44,6 +26,8 @@ struct MakeRecord {
     record.point = disc.centre;
     record.direction = disc.normal;
     record.base_radius = disc.radius;
+    record.side = any_perpendicular(disc.normal);
+    record.thickness = disc.thickness.value_or(0);
     return record;
   }
   WallRecord operator()(const Cylinder& cylinder) const {
@@ -53,6 +37,7 @@ struct MakeRecord {
     record.direction = cylinder.axis;
     record.length = cylinder.length;
     record.base_radius = record.top_radius = cylinder.radius;
+    record.solid_within = cylinder.solid == SolidSide::within;
     return record;
   }
   WallRecord operator()(const Cone& cone) const {
@@ -63,6 +48,16 @@ struct MakeRecord {
     record.length = cone.length;
     record.base_radius = cone.base_radius;
     record.top_radius = cone.top_radius;
+    record.solid_within = cone.solid == SolidSide::within;
+    return record;
+  }
+  WallRecord operator()(const Ball& ball) const {
+    WallRecord record;
+    record.kind = WallKind::sphere;
+    record.point = ball.centre;
+    record.direction = {0, 0, 1};
+    record.base_radius = record.top_radius = ball.radius;
+    record.solid_within = ball.solid == SolidSide::within;
     return record;
   }
   WallRecord operator()(const VolumeObject& object) const {
@@ -73,58 +68,106 @@ struct MakeRecord {
       record.bounding_radius = std::max(record.bounding_radius, norm(Vec3{vertex[0], vertex[1], vertex[2]}));
     return record;  // the shape stands in the world frame at time 0: pose is the identity
   }
+  WallRecord operator()(const MeshObject&) const {
+    WallRecord record;
+    record.kind = WallKind::mesh;
+    record.mesh = next_mesh;
+    return record;  // as a volume object
+  }
 };
 
 /// True if turning about the axis through `centre` leaves the surface where it is.
 bool maps_onto_itself(const WallRecord& record, const Vec3& centre, const Vec3& axis) {
+  if (record.kind == WallKind::sphere) return norm(cross(record.point - centre, axis)) < 1e-9;
   if (norm(cross(record.direction, axis)) > 1e-9) return false;
   if (record.kind == WallKind::plane) return true;
   const Vec3 offset = record.point - centre;
-  return norm(offset - dot(offset, axis) * axis) < 1e-9 && record.kind != WallKind::volume_object;
+  return norm(offset - dot(offset, axis) * axis) < 1e-9 && record.kind != WallKind::volume_object &&
+         record.kind != WallKind::mesh;
 }
 
-Real reach_from_axis(const Wall& wall, const WallRecord& record) {
-  const Real rate = norm(wall.motion.angular_velocity);
+/// Largest distance of a wall's surface from the axis of a rotation vector, which may itself be turned (`turns`); 0 if
+/// the surface maps onto itself [m].
+Real reach_from_axis(const Wall& wall, const WallRecord& record, const Vec3& rotation, bool turns) {
+  const Real rate = norm(rotation);
   if (rate == 0) return 0;
-  const Vec3 axis = wall.motion.angular_velocity / rate;
+  const Vec3 axis = rotation / rate;
+  if (maps_onto_itself(record, wall.motion.rotation_centre, axis)) return 0;
   const auto distance = [&](const Vec3& x) {
     const Vec3 offset = x - wall.motion.rotation_centre;
-    return norm(offset - dot(offset, axis) * axis);
+    return turns ? norm(offset) : norm(offset - dot(offset, axis) * axis);
   };
-  if (const auto* object = std::get_if<VolumeObject>(&wall.geometry)) {
+  const auto farthest = [&](const std::vector<catalog::Point>& vertices) {
     Real reach = 0;
-    for (const catalog::Point& vertex : object->part.vertices)
-      reach = std::max(reach, distance({vertex[0], vertex[1], vertex[2]}));
+    for (const catalog::Point& vertex : vertices) reach = std::max(reach, distance({vertex[0], vertex[1], vertex[2]}));
     return reach;
-  }
-  if (maps_onto_itself(record, wall.motion.rotation_centre, axis)) return 0;
+  };
+  if (const auto* object = std::get_if<VolumeObject>(&wall.geometry)) return farthest(object->part.vertices);
+  // A sheet's back stands out by less than a few thicknesses.
+  if (const auto* mesh = std::get_if<MeshObject>(&wall.geometry))
+    return farthest(mesh->mesh.vertices) + 4 * mesh->thickness.value_or(0);
   return distance(record.point) + record.length + std::max(record.base_radius, record.top_radius) + 1;
+}
+
+/// Are two rims one circle, to within a millionth of it?
+bool is_one_rim(const WallRecord& a, bool at_top, const WallRecord& b, bool b_at_top) {
+  const auto centre = [](const WallRecord& wall, bool top) {
+    return wall.point + (top ? wall.length : Real(0)) * wall.direction;
+  };
+  const Real radius = at_top ? a.top_radius : a.base_radius, other = b_at_top ? b.top_radius : b.base_radius;
+  const Real tolerance = Real(1e-6) * radius;
+  return radius > 0 && std::abs(radius - other) < tolerance &&
+         norm(centre(a, at_top) - centre(b, b_at_top)) < tolerance &&
+         norm(cross(a.direction, b.direction)) < Real(1e-6) && a.solid_within == b.solid_within;
 }
 
 }  // namespace
 
 WallSet::WallSet(const Scene& scene, int first_shape) : walls_(scene.walls) {
+  int next_mesh = 0;
   for (const Wall& wall : walls_) {
-    WallRecord record = std::visit(MakeRecord{first_shape}, wall.geometry);
+    WallRecord record = std::visit(MakeRecord{first_shape, next_mesh}, wall.geometry);
     if (record.kind == WallKind::volume_object) ++first_shape;
+    if (record.kind == WallKind::mesh) ++next_mesh;
     record.material = wall.material;
     record.rotation_centre = wall.motion.rotation_centre;
     at_start_.push_back(record);
-    reach_.push_back(reach_from_axis(wall, record));
+    const Motion& motion = wall.motion;
+    const bool turns = norm(motion.angular_velocity) > 0 && is_oscillating(motion);
+    turn_reach_.push_back(reach_from_axis(wall, record, motion.angular_velocity, turns));
+    swing_reach_.push_back(reach_from_axis(wall, record, motion.angular_amplitude, turns));
   }
+  join_rims();
   now_ = at_start_;
   move_to(0);
 }
 
-Vec3 WallSet::translation(int wall) const {
-  const Motion& motion = walls_[wall].motion;
-  return motion.rotation_centre - rotate(rotation(wall), motion.rotation_centre) +
-         effective_time(motion, time_) * motion.velocity;
+void WallSet::join_rims() {
+  const auto is_round = [&](int w) {
+    return at_start_[w].kind == WallKind::cylinder || at_start_[w].kind == WallKind::cone;
+  };
+  for (int a = 0; a < static_cast<int>(at_start_.size()); ++a)
+    for (int b = 0; b < static_cast<int>(at_start_.size()); ++b) {
+      if (a == b || !is_round(a) || !is_round(b)) continue;
+      const Motion &motion = walls_[a].motion, &other = walls_[b].motion;
+      const bool both_spin = norm(motion.velocity) == 0 && norm(other.velocity) == 0 && !is_oscillating(motion) &&
+                             !is_oscillating(other) && turn_reach_[a] == 0 && turn_reach_[b] == 0;
+      if (!(motion == other) && !both_spin) continue;
+      for (const bool at_top : {false, true})
+        for (const bool other_at_top : {false, true})
+          if (is_one_rim(at_start_[a], at_top, at_start_[b], other_at_top)) at_start_[a].rim_neighbour[at_top] = b;
+    }
 }
 
-Quaternion WallSet::rotation(int wall) const { return rotation_at(walls_[wall].motion, time_); }
+Vec3 WallSet::translation(int wall) const {
+  const Motion& motion = walls_[wall].motion;
+  return motion.rotation_centre - rotate(rotation(wall), motion.rotation_centre) + place_at(motion, time_).shift;
+}
+
+Quaternion WallSet::rotation(int wall) const { return place_at(walls_[wall].motion, time_).rotation; }
 
 bool WallSet::move_to(Real time) {
+  const Real before = time_;
   time_ = time;
   bool has_changed = false;
   for (int w = 0; w < count(); ++w) {
@@ -132,14 +175,17 @@ bool WallSet::move_to(Real time) {
     const Quaternion turn = rotation(w);
     const Vec3 shift = translation(w);
     const bool is_present = !walls_[w].removed_at || time < *walls_[w].removed_at;
+    const WallRate rate = rate_at(motion, time), mean = mean_rate(motion, before, time);
     has_changed |= is_present != now_[w].is_present;
     now_[w].is_present = is_present;
     now_[w].point = rotate(turn, at_start_[w].point) + shift;
     now_[w].direction = rotate(turn, at_start_[w].direction);
     now_[w].orientation = turn;
-    now_[w].rotation_centre = motion.rotation_centre + effective_time(motion, time) * motion.velocity;
-    now_[w].velocity = speed_share(motion, time) * motion.velocity;
-    now_[w].angular_velocity = speed_share(motion, time) * motion.angular_velocity;
+    now_[w].rotation_centre = motion.rotation_centre + place_at(motion, time).shift;
+    now_[w].velocity = rate.velocity;
+    now_[w].angular_velocity = rate.angular_velocity;
+    now_[w].mean_velocity = mean.velocity;
+    now_[w].mean_angular_velocity = mean.angular_velocity;
   }
   assign(device_, now_);
   return has_changed;
@@ -148,17 +194,15 @@ bool WallSet::move_to(Real time) {
 Real WallSet::largest_displacement(Real from, Real to) const {
   Real largest = 0;
   for (int w = 0; w < count(); ++w) {
-    const Motion& motion = walls_[w].motion;
-    const Real span = effective_time(motion, to) - effective_time(motion, from);
-    largest = std::max(largest, std::abs(span) * (norm(motion.velocity) + reach_[w] * norm(motion.angular_velocity)));
+    const WallTravel gone = travel(walls_[w].motion, from, to);
+    largest = std::max(largest, gone.shift + turn_reach_[w] * gone.turn + swing_reach_[w] * gone.swing);
   }
   return largest;
 }
 
 bool WallSet::has_moving_walls() const {
-  return std::any_of(walls_.begin(), walls_.end(), [](const Wall& wall) {
-    return norm(wall.motion.velocity) > 0 || norm(wall.motion.angular_velocity) > 0 || wall.removed_at;
-  });
+  return std::any_of(walls_.begin(), walls_.end(),
+                     [](const Wall& wall) { return is_moving(wall.motion) || wall.removed_at; });
 }
 
 }  // namespace dem_gpu

@@ -15,17 +15,24 @@ struct WallRecord {
   WallKind kind = WallKind::plane;
   bool is_present = true;
   int shape = -1;  // volume objects: row of ShapeColumns
+  int mesh = -1;   // meshes: row of MeshColumns::meshes
   int material = 0;
-  Vec3 point;                // plane point, disc centre, base of cylinder and cone; position of a volume object [m]
-  Vec3 direction;            // normal or axis, unit
-  Real length = 0;           // [m]
-  Real base_radius = 0;      // [m]
-  Real top_radius = 0;       // [m]
-  Real bounding_radius = 0;  // volume objects, about point [m]
-  Quaternion orientation;    // volume objects
-  Vec3 rotation_centre;      // where the wall's torque is taken [m]
-  Vec3 velocity;             // at the end of the step, of the material point at rotation_centre [m/s]
-  Vec3 angular_velocity;     // [rad/s]
+  Vec3 point;      // plane point, disc centre, base of cylinder and cone; position of a volume object or mesh [m]
+  Vec3 direction;  // normal or axis, unit
+  Vec3 side;       // discs: a unit vector in the face at time 0
+  bool solid_within = false;        // cylinder, cone, ball: bodies are outside
+  Real thickness = 0;               // discs; 0: all behind is solid [m]
+  int rim_neighbour[2] = {-1, -1};  // wall that shares the rim at the base and at the top, -1 for none
+  Real length = 0;                  // [m]
+  Real base_radius = 0;             // [m]
+  Real top_radius = 0;              // [m]
+  Real bounding_radius = 0;         // volume objects, about point [m]
+  Quaternion orientation;           // volume objects and meshes
+  Vec3 rotation_centre;             // where the wall's torque is taken [m]
+  Vec3 velocity;                    // at the end of the step, of the material point at rotation_centre [m/s]
+  Vec3 angular_velocity;            // [rad/s]
+  Vec3 mean_velocity;               // over the step, of the same point [m/s]
+  Vec3 mean_angular_velocity;       // [rad/s]
 };
 
 /// Walls as functions of time: no state of their own, so a resumed run finds them where they were.
@@ -47,11 +54,14 @@ class WallSet {
   bool has_moving_walls() const;
 
  private:
+  /// Finds walls that share a rim and keep sharing it.
+  void join_rims();
+
   std::vector<Wall> walls_;
   std::vector<WallRecord> at_start_;
   std::vector<WallRecord> now_;
-  std::vector<Real>
-      reach_;  // largest distance of the wall's surface from its axis of rotation [m]; 0: maps onto itself
+  std::vector<Real> turn_reach_;   // of the surface from the axis of rotation [m]; 0: it maps onto itself
+  std::vector<Real> swing_reach_;  // from the axis of oscillation [m]
   DeviceVector<WallRecord> device_;
   Real time_ = 0;
 };

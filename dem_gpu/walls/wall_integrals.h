@@ -3,9 +3,10 @@
 
 #include "dem_gpu/contacts/elastic_contact.h"
 #include "dem_gpu/core/scratch_array.h"
-#include "dem_gpu/narrow_phase/depth_profile.h"
 #include "dem_gpu/narrow_phase/part_frame.h"
+#include "dem_gpu/narrow_phase/polygon_depth.h"
 #include "dem_gpu/scene.h"
+#include "dem_gpu/walls/curved_window.h"
 #include "dem_gpu/walls/wall_patch_sums.h"
 #include "dem_gpu/walls/wall_surface.h"
 
@@ -61,6 +62,30 @@ struct WallIntegralsOf {
       add_linear(buffer[current][0], buffer[current][i - 1], buffer[current][i], normal, is_outer);
   }
 
+  /// A polygon in the wall's depth below one plane, in the axes and about the point that the sums are in.
+  TALUS_HD void add_polygon(const Polygon& polygon, const HalfSpace& plane, const Vec3& normal, bool is_outer) {
+    std::conditional_t<kHasPatch, PolygonPatchDepthOf<Profile>, PolygonDepthOf<Profile>> sum;
+    sum.profile = profile;
+    add_linear_depth(polygon, plane, normal, sum);
+    force -= sum.depth * normal;
+    moment -= cross(sum.depth_moment, normal);
+    area += sum.area * normal;
+    if (!is_outer) return;
+    weight += sum.depth;
+    weighted_point += sum.depth_moment;
+    largest_depth = std::max(largest_depth, sum.largest);
+    if constexpr (kHasPatch) patch.add(sum.depth, normal, plane.normal, sum.second_moment);
+  }
+
+  /// The same sums in axes turned by `rotation`.
+  TALUS_HD void turn(const Mat3& rotation) {
+    force = rotation * force;
+    moment = rotation * moment;
+    weighted_point = rotation * weighted_point;
+    area = rotation * area;
+    if constexpr (kHasPatch) patch.tensor = rotated(patch.tensor, rotation);
+  }
+
   /// `stiffness`: of a flat face on the wall [N/m3].
   TALUS_HD bool to_contact(Real stiffness, const Vec3& centre, ElasticContact& contact) const {
     if (!(weight > 0)) return false;
@@ -102,7 +127,7 @@ struct WallIntegralsOf {
     weighted_point += depth_moment;
     largest_depth = std::max(largest_depth, std::max(da, std::max(db, dc)));
     if constexpr (kHasPatch)
-      if (depth > 0) patch.add(depth, normal, depth_moment / depth, profile.second_moment(piece));
+      if (depth > 0) patch.add(depth, normal, patch.wall_normal_at(depth_moment / depth), profile.second_moment(piece));
   }
 };
 
@@ -111,15 +136,18 @@ using WallIntegrals = WallIntegralsOf<LinearProfile>;
 /// Chord error that a piece of a face may have against a curved wall, as a share of the part's radius.
 constexpr Real kChordError = Real(0.002);
 constexpr int kMostPieces = 8;  // of a triangle's edge
+/// Where bodies are outside a ball or shaft, which may be small beside a face: the force of a face on a ball is then
+/// short by at most 1 %.
+constexpr int kMostPiecesOutside = 24;
 
 /// Adds the triangle a, b, c of a flat face (relative to the body's centre) in pieces small enough for the wall's depth
 /// to be linear on each: a chord of length h leaves a circle of radius R by h^2 / (8 R).
 template <class Sampler, class Integrals>
 TALUS_HD void add_in_pieces(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& normal, bool is_outer,
-                            Real longest_piece, const Sampler& sample, Integrals& integrals) {
+                            Real longest_piece, int most_pieces, const Sampler& sample, Integrals& integrals) {
   const Real longest = std::sqrt(std::max(norm_squared(b - a), std::max(norm_squared(c - a), norm_squared(c - b))));
   const int pieces =
-      longest < kMostPieces * longest_piece ? 1 + static_cast<int>(longest / longest_piece) : kMostPieces;
+      longest < most_pieces * longest_piece ? 1 + static_cast<int>(longest / longest_piece) : most_pieces;
   const Vec3 along_b = (Real(1) / pieces) * (b - a), along_c = (Real(1) / pieces) * (c - a);
   const auto corner = [&](int row, int column) {
     return sample(a + static_cast<Real>(row) * along_b + static_cast<Real>(column) * along_c);
@@ -139,7 +167,14 @@ TALUS_HD void add_in_pieces(const Vec3& a, const Vec3& b, const Vec3& c, const V
   }
 }
 
-/// Adds one convex part of a body at `pose` to the wall's integrals.
+/// Length of the pieces in which the depth of a curved wall may be taken as linear [m].
+TALUS_HD inline Real longest_piece_on(const WallRecord& wall, const Vec3& centre, Real radius) {
+  const Real curvature_radius =
+      wall.kind == WallKind::sphere ? wall.base_radius : axial_position(wall, centre).radius + radius;
+  return std::sqrt(8 * kChordError * radius * curvature_radius);
+}
+
+/// Adds one convex part of a body at `pose` to the integrals of a plane, or of a curved wall with the bodies inside.
 template <class Integrals>
 TALUS_HD void integrate_part_in_wall(const PartView& part, const Pose& pose, const WallRecord& wall,
                                      Integrals& integrals) {
@@ -156,9 +191,8 @@ TALUS_HD void integrate_part_in_wall(const PartView& part, const Pose& pose, con
     touches |= vertices[v].field.depth > 0;
   }
   if (!touches) return;
-  const bool is_curved = wall.kind == WallKind::cylinder || wall.kind == WallKind::cone;
-  const Real longest_piece =
-      is_curved ? std::sqrt(8 * kChordError * radius * (axial_position(wall, centre).radius + radius)) : Real(0);
+  const bool is_curved = wall.kind != WallKind::plane;
+  const Real longest_piece = is_curved ? longest_piece_on(wall, centre, radius) : Real(0);
   for (int f = 0; f < part.range.face_count; ++f) {
     const bool is_outer = f < part.range.outer_face_count;
     const FaceCorners face = part.faces[f];
@@ -170,12 +204,48 @@ TALUS_HD void integrate_part_in_wall(const PartView& part, const Pose& pose, con
     for (int c = 2; c < face.count; ++c) {
       const WallSample &first = vertices[corner[0]], &second = vertices[corner[c - 1]], &third = vertices[corner[c]];
       if (is_curved)
-        add_in_pieces(first.position, second.position, third.position, normal, is_outer, longest_piece, sample,
-                      integrals);
+        add_in_pieces(first.position, second.position, third.position, normal, is_outer, longest_piece, kMostPieces,
+                      sample, integrals);
       else
         integrals.add_triangle(first, second, third, normal, is_outer);
     }
   }
+}
+
+/// Adds one convex part of a body at `pose` to the integrals of a ball, shaft or cone with the bodies outside: each
+/// face is first cut down to where the wall can reach it. False if a polygon was truncated.
+template <class Integrals>
+TALUS_HD bool integrate_part_outside(const PartView& part, const Pose& pose, const WallRecord& wall,
+                                     Integrals& integrals) {
+  const Vec3 centre = pose.scale * (pose.rotation * part.range.centre) + pose.position;
+  const Real radius = pose.scale * part.range.radius;
+  if (wall_field(wall, centre).depth + radius <= 0) return true;
+  const auto sample = [&](const Vec3& relative) {
+    return WallSample{relative, wall_field(wall, pose.position + relative)};
+  };
+  const Vec3 point = wall.point - pose.position;
+  Polygon buffer[2];
+  for (int f = 0; f < part.range.face_count; ++f) {
+    const HalfSpace plane{pose.rotation * part.planes[f].normal, pose.scale * part.planes[f].offset};
+    const CurvedWindow window =
+        wall.kind == WallKind::sphere ? ball_window(wall, point, plane) : shaft_window(wall, point, plane);
+    if (window.is_empty) continue;
+    const FaceCorners face = part.faces[f];
+    int current = 0;
+    buffer[0].count = face.count;
+    buffer[0].is_truncated = false;
+    for (int c = 0; c < face.count; ++c)
+      buffer[0].corner[c] = pose.scale * (pose.rotation * part.vertices[part.corners[face.first + c]]);
+    for (int side = 0; side < window.count; ++side, current = 1 - current)
+      clip(buffer[current], window.side[side], buffer[1 - current]);
+    const Polygon& polygon = buffer[current];
+    if (polygon.is_truncated) return false;
+    for (int c = 2; c < polygon.count; ++c)
+      add_in_pieces(polygon.corner[0], polygon.corner[c - 1], polygon.corner[c], plane.normal,
+                    f < part.range.outer_face_count, 2 * window.half_width / kMostPiecesOutside, kMostPiecesOutside,
+                    sample, integrals);
+  }
+  return true;
 }
 
 }  // namespace dem_gpu

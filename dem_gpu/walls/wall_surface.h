@@ -33,18 +33,28 @@ TALUS_HD inline AxialPosition axial_position(const WallRecord& wall, const Vec3&
 
 TALUS_HD inline WallField wall_field(const WallRecord& wall, const Vec3& x) {
   if (wall.kind == WallKind::plane) return {dot(wall.direction, wall.point - x), 1, 1};
+  if (wall.kind == WallKind::sphere) {
+    const Real outside = norm(x - wall.point) - wall.base_radius;
+    return {wall.solid_within ? -outside : outside, 1, 1};
+  }
   const AxialPosition position = axial_position(wall, x);
-  if (wall.kind == WallKind::disc) return {-position.along, wall.base_radius - position.radius, 1};
+  if (wall.kind == WallKind::disc) {
+    const Real from_back = wall.thickness > 0 ? wall.thickness + position.along : Real(1);
+    return {-position.along, wall.base_radius - position.radius, from_back};
+  }
   const Real slope = (wall.top_radius - wall.base_radius) / wall.length;
   const Real gap = position.radius - (wall.base_radius + slope * position.along);
-  return {gap / std::sqrt(1 + slope * slope), position.along, wall.length - position.along};
+  const Real depth = (wall.solid_within ? -gap : gap) / std::sqrt(1 + slope * slope);
+  return {depth, position.along, wall.length - position.along};
 }
 
 /// Normal of a wall's surface nearest to x, from the wall to the bodies.
 TALUS_HD inline Vec3 wall_normal(const WallRecord& wall, const Vec3& x) {
   if (wall.kind == WallKind::plane || wall.kind == WallKind::disc) return wall.direction;
+  const Real side = wall.solid_within ? 1 : -1;
+  if (wall.kind == WallKind::sphere) return side * unit_or(x - wall.point, wall.direction);
   const Real slope = (wall.top_radius - wall.base_radius) / wall.length;
-  return (-1 / std::sqrt(1 + slope * slope)) * (axial_position(wall, x).outward - slope * wall.direction);
+  return (side / std::sqrt(1 + slope * slope)) * (axial_position(wall, x).outward - slope * wall.direction);
 }
 
 /// Signed distance of a point from a wall's surface, positive in the solid, and the unit direction into the solid
@@ -52,11 +62,33 @@ TALUS_HD inline Vec3 wall_normal(const WallRecord& wall, const Vec3& x) {
 struct SurfaceDistance {
   Real depth = 0;  // [m]
   Vec3 into_wall;
+  int rim = -1;  // 0, 1: the nearest point lies on the rim at the base, at the top
 };
+
+/// Round plate: a rectangle in the half-plane of radius and axis.
+TALUS_HD inline SurfaceDistance plate_distance(const WallRecord& wall, const AxialPosition& position) {
+  const Real above = position.along, below = -wall.thickness - position.along;
+  const Real beside = position.radius - wall.base_radius;
+  const Real over = above > 0 ? above : below > 0 ? -below : Real(0);  // signed, along the normal
+  if (over != 0 || beside > 0) {
+    const Vec3 outward = over * wall.direction + (beside > 0 ? beside : Real(0)) * position.outward;
+    const Real distance = norm(outward);
+    return {-distance, (-1 / distance) * outward};
+  }
+  if (beside >= above && beside >= below) return {-beside, -position.outward};
+  return above >= below ? SurfaceDistance{-above, -wall.direction} : SurfaceDistance{-below, wall.direction};
+}
 
 TALUS_HD inline SurfaceDistance surface_distance(const WallRecord& wall, const Vec3& x) {
   if (wall.kind == WallKind::plane) return {dot(wall.direction, wall.point - x), -wall.direction};
+  if (wall.kind == WallKind::sphere) {
+    const Vec3 offset = x - wall.point;
+    const Real distance = norm(offset), outside = distance - wall.base_radius;
+    const Vec3 outward = distance > 0 ? offset / distance : any_perpendicular(wall.direction);
+    return wall.solid_within ? SurfaceDistance{-outside, -outward} : SurfaceDistance{outside, outward};
+  }
   const AxialPosition position = axial_position(wall, x);
+  if (wall.kind == WallKind::disc && wall.thickness > 0) return plate_distance(wall, position);
   // The surface's generator is a segment in the (radius, along) half-plane.
   const bool is_disc = wall.kind == WallKind::disc;
   const Real start_radius = is_disc ? 0 : wall.base_radius;
@@ -69,14 +101,14 @@ TALUS_HD inline SurfaceDistance surface_distance(const WallRecord& wall, const V
   const Real gap_along = inside * step_along - position.along;
   const Vec3 to_surface = gap_radius * position.outward + gap_along * wall.direction;
   if (share > 0 && share < 1) {
-    // Into the solid: away from the axis for cylinder and cone, against the normal for a disc.
+    // Into the solid: away from the axis about a cylinder or cone, against the normal of a disc.
     const Real length = std::sqrt(square);
-    const Vec3 into =
-        is_disc ? -wall.direction : (step_along / length) * position.outward - (step_radius / length) * wall.direction;
+    const Vec3 outward = (step_along / length) * position.outward - (step_radius / length) * wall.direction;
+    const Vec3 into = is_disc ? -wall.direction : wall.solid_within ? -outward : outward;
     return {-dot(to_surface, into), into};
   }
   const Real distance = norm(to_surface);
-  return {-distance, distance > 0 ? to_surface / distance : position.outward};
+  return {-distance, distance > 0 ? to_surface / distance : position.outward, share <= 0 ? 0 : 1};
 }
 
 }  // namespace dem_gpu

@@ -182,6 +182,12 @@ void add_shell(vtkRenderer* renderer, const WallGeometry& wall, const Placement&
   add_outline(renderer, {ring, shell.points.end()});
 }
 
+/// Mesh or sphere: what turns its front to the eye solid, the rest like glass, so that a container shows what it holds.
+void add_closed(vtkRenderer* renderer, const Surface& surface, const Vec3& eye, const auto& outward) {
+  add_surface(renderer, half_of(surface, eye, true, outward), kShell, 1);
+  add_surface(renderer, half_of(surface, eye, false, outward), kShell, kGlass);
+}
+
 /// Disc or plane: solid where its front shows, else only its rim.
 void add_plate(vtkRenderer* renderer, const Surface& plate, const Vec3& normal, const Vec3& eye, const Colour& colour) {
   if (plate.points.empty() || plate.polygon_count() == 0) return;
@@ -215,6 +221,20 @@ void add_walls(vtkRenderer* renderer, const RunGeometry& geometry, const Snapsho
         append(surface, wall_surface(wall, {}), placement);
         add_surface(renderer, surface, kLifter, 1);
         break;
+      case WallKind::mesh:
+        append(surface, wall_surface(wall, {}), placement);
+        add_closed(renderer, surface, view.eye, [&](const std::vector<int>& corners, const Vec3&) {
+          const Vec3 first = surface.points[corners[0]];
+          return cross(surface.points[corners[1]] - first, surface.points[corners[2]] - first);
+        });
+        break;
+      case WallKind::sphere: {
+        append(surface, wall_surface(wall, {}), placement);
+        const Vec3 centre = rotate(placement.rotation, wall.point) + placement.translation;
+        add_closed(renderer, surface, view.eye,
+                   [&](const std::vector<int>&, const Vec3& middle) { return centre - middle; });
+        break;
+      }
     }
   }
 }

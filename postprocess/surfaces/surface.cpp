@@ -151,6 +151,9 @@ std::pair<int, int> append(Surface& surface, const Surface& part, const Placemen
   return {first_polygon, surface.polygon_count()};
 }
 
+/// Subdivisions of an octahedron for a spherical wall.
+constexpr int kWallSphereLevels = 5;
+
 void Bounds::include(const Vec3& point) {
   if (is_empty()) low = high = point;
   low = {std::min(low.x, point.x), std::min(low.y, point.y), std::min(low.z, point.z)};
@@ -183,6 +186,13 @@ Bounds scene_bounds(const dem_gpu::RunGeometry& geometry, const dem_gpu::Snapsho
   return bounds;
 }
 
+Surface mesh_surface(const catalog::TriangleMesh& mesh) {
+  Surface surface;
+  for (const catalog::Point& p : mesh.vertices) surface.points.push_back({p[0], p[1], p[2]});
+  for (const catalog::Triangle& face : mesh.faces) surface.add_polygon({face[0], face[1], face[2]});
+  return surface;
+}
+
 Surface wall_surface(const WallGeometry& wall, const Bounds& bounds, int segments) {
   switch (wall.kind) {
     case WallKind::plane:
@@ -197,6 +207,13 @@ Surface wall_surface(const WallGeometry& wall, const Bounds& bounds, int segment
                                    {{0.0, wall.base_radius}, {wall.length, wall.top_radius}}, segments);
     case WallKind::volume_object:
       return part_surface(wall.part);
+    case WallKind::mesh:
+      return mesh_surface(wall.mesh);
+    case WallKind::sphere: {
+      Surface ball;
+      append(ball, unit_sphere(kWallSphereLevels), {{}, wall.point, wall.base_radius});
+      return ball;
+    }
   }
   return {};
 }

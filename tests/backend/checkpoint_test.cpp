@@ -10,6 +10,7 @@
 #include "tests/support/dem_runs.h"
 #include "tests/support/mixed_scene.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/wall_meshes.h"
 
 namespace {
 
@@ -52,6 +53,40 @@ TEST(Checkpoint, ResumedRunEndsInTheSameBytes) {
     EXPECT_EQ(resumed.imbalance(), ledger.imbalance());
     EXPECT_EQ(resumed.throughput, ledger.throughput);
     EXPECT_EQ(second.quality().largest_overlap, unbroken.quality().largest_overlap);
+  }
+}
+
+/// The mixed scene in a turning drum that is a mesh, on a shaking plate.
+Scene mesh_scene() {
+  Scene scene = mixed_scene();
+  const dem_gpu::Motion turning = scene.walls[0].motion;
+  catalog::TriangleMesh drum = drum_mesh(0.1, 0.08, 24);
+  for (catalog::Point& p : drum.vertices) p[1] -= 0.04;
+  scene.walls[0] = mesh_wall("shell", drum);
+  std::get<dem_gpu::MeshObject>(scene.walls[0].geometry).is_container = true;
+  scene.walls[0].motion = turning;
+  catalog::TriangleMesh plate = flat_sheet(0.1, 3);
+  for (catalog::Point& p : plate.vertices) p[2] -= 0.055;
+  scene.walls[2] = mesh_wall("gate", plate, 0.01);
+  scene.walls[2].motion.amplitude = {0, 0, 0.001};
+  scene.walls[2].motion.frequency = 60;
+  return scene;
+}
+
+TEST(Checkpoint, MovingMeshesResumeInTheSameBytes) {
+  const TemporaryFolder folder;
+  Simulation unbroken(mesh_scene());
+  unbroken.advance(2500);
+  const std::string expected = snapshot_bytes(unbroken, folder);
+  EXPECT_GT(unbroken.bulk().contacts, 5);
+  for (const int broken_at : {1, 1777}) {
+    Simulation first(mesh_scene());
+    first.advance(broken_at);
+    first.write_checkpoint(folder.path());
+    Simulation second(mesh_scene());
+    second.read_checkpoint(folder.path());
+    second.advance(2500 - broken_at);
+    EXPECT_EQ(snapshot_bytes(second, folder), expected) << "broken at step " << broken_at;
   }
 }
 

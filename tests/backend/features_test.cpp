@@ -5,6 +5,7 @@
 #include "dem_gpu/contacts/contact_columns.h"
 #include "dem_gpu/simulation.h"
 #include "tests/support/mixed_scene.h"
+#include "tests/support/wall_meshes.h"
 
 namespace {
 
@@ -35,7 +36,11 @@ TEST(Absent, PassesOfWhatIsNotThere) {
   scene.outflow = dem_gpu::Outflow{};
   EXPECT_EQ(passes(scene), (Names{"advance_bodies", "advance_walls", "neighbour_list", "polyhedron_object_contacts",
                                   "gather_forces", "outflow"}));
-  EXPECT_EQ(passes(mixed_scene()).size(), 12u) << "everything";
+  scene.walls[0].geometry = dem_gpu::MeshObject{flat_sheet(1, 2), 0.1};
+  scene.outflow.reset();
+  EXPECT_EQ(passes(scene),
+            (Names{"advance_bodies", "advance_walls", "neighbour_list", "polyhedron_mesh_contacts", "gather_forces"}));
+  EXPECT_EQ(passes(mixed_scene()).size(), 12u) << "everything but meshes";
 }
 
 TEST(Absent, ColumnsOfWhatIsNotThere) {
@@ -51,21 +56,25 @@ TEST(Absent, ColumnsOfWhatIsNotThere) {
                                     columns.turning_displacement.size(),
                                     columns.last_friction_couple.size(),
                                     columns.spring_normal.size(),
-                                    columns.owed_kick.size()};
+                                    columns.owed_kick.size(),
+                                    columns.facet_begin.size()};
   };
   using Lengths = std::vector<std::size_t>;
-  EXPECT_EQ(lengths({}), (Lengths{10, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(lengths({true, false, false, false, false}), (Lengths{10, 0, 10, 0, 0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(lengths({false, true, false, false, false}), (Lengths{10, 0, 0, 10, 10, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(lengths({false, false, true, false, false}), (Lengths{10, 0, 0, 0, 0, 10, 0, 0, 0, 0}));
-  EXPECT_EQ(lengths({false, false, false, true, false}), (Lengths{10, 11, 0, 0, 0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(lengths({true, false, false, true, true}), (Lengths{10, 11, 10, 0, 0, 0, 10, 0, 10, 0}));
-  EXPECT_EQ(lengths({true, true, false, true, true}), (Lengths{10, 11, 10, 10, 10, 0, 10, 10, 10, 0}));
+  EXPECT_EQ(lengths({}), (Lengths{10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({true, false, false, false, false}), (Lengths{10, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({false, true, false, false, false}), (Lengths{10, 0, 0, 10, 10, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({false, false, true, false, false}), (Lengths{10, 0, 0, 0, 0, 10, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({false, false, false, true, false}), (Lengths{10, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({true, false, false, true, true}), (Lengths{10, 11, 10, 0, 0, 0, 10, 0, 10, 0, 0}));
+  EXPECT_EQ(lengths({true, true, false, true, true}), (Lengths{10, 11, 10, 10, 10, 0, 10, 10, 10, 0, 0}));
+  dem_gpu::ContactFeatures at_meshes;
+  at_meshes.has_meshes = true;
+  EXPECT_EQ(lengths(at_meshes), (Lengths{10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 11}));
   dem_gpu::ContactFeatures rolling_spheres;
   rolling_spheres.has_spheres = true;
-  EXPECT_EQ(lengths(rolling_spheres), (Lengths{10, 0, 0, 0, 0, 0, 0, 0, 0, 10}));
+  EXPECT_EQ(lengths(rolling_spheres), (Lengths{10, 0, 0, 0, 0, 0, 0, 0, 0, 10, 0}));
   rolling_spheres.has_friction_couples = true;
-  EXPECT_EQ(lengths(rolling_spheres), (Lengths{10, 0, 0, 0, 0, 0, 10, 0, 0, 10}));
+  EXPECT_EQ(lengths(rolling_spheres), (Lengths{10, 0, 0, 0, 0, 0, 10, 0, 0, 10, 0}));
 }
 
 TEST(Absent, MotionIsTheSameWithoutTheLedger) {

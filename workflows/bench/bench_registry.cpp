@@ -16,6 +16,7 @@ const std::vector<Bench>& benches() {
       {"laws", "contact laws: energy round closed paths, cuts into parts, stiffness exponents", plan_laws_bench},
       {"overlap", "overlap integrals: error against closed forms, time per pair", plan_overlap_bench},
       {"pile", "300 mixed grains settling: speed, energy balance, overlap, threads", plan_pile_bench},
+      {"walls", "a drum as a cylinder and as 64 and 512 flat segments: torque and work", plan_walls_bench},
       // A new bench: its file beside these, its function in the header, one line here.
   };
   return all;

@@ -16,6 +16,10 @@ dem_gpu::Wall wall(decltype(dem_gpu::Wall::geometry) geometry) {
   return wall;
 }
 
+double reach_into(const dem_gpu::Wall& wall, const dem_gpu::Vec3& centre, double radius) {
+  return WallReach(wall).reach_of(centre, radius);
+}
+
 TEST(InitialState, ReachIntoWallsOfEachKind) {
   EXPECT_NEAR(reach_into(wall(dem_gpu::Plane{{0, 0, 1}, {0, 0, 1}}), {5, 5, 1.2}, 0.3), 0.1, 1e-15);
   const dem_gpu::Wall disc = wall(dem_gpu::Disc{{0, 0, 0}, {0, 0, 1}, 1});

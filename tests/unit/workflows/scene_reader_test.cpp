@@ -100,6 +100,51 @@ TEST(SceneReader, LiftersRiseFromTheShellAndTurnWithIt) {
   }
 }
 
+/// A tetrahedron as text, in millimetres; `normals_out` or turned round.
+std::string tetrahedron_stl(bool normals_out) {
+  const std::string corner[] = {"vertex 0 0 0\n", "vertex 10 0 0\n", "vertex 0 10 0\n", "vertex 0 0 10\n"};
+  const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  std::string text = "solid t\n";
+  for (const auto& f : faces)
+    text += "facet normal 0 0 0\nouter loop\n" + corner[f[0]] + corner[f[normals_out ? 1 : 2]] +
+            corner[f[normals_out ? 2 : 1]] + "endloop\nendfacet\n";
+  return text + "endsolid t\n";
+}
+
+TEST(SceneReader, MeshWallsComeFromStlFiles) {
+  const test_support::TemporaryFolder folder;
+  const auto scene_with = [&](const std::string& stl, const std::string& more) {
+    test_support::write_bytes(folder / "t.stl", stl);
+    const std::string text = drum_scene() +
+                             "\n[[wall]]\nname = \"t\"\ntype = \"mesh\"\nfile = \"t.stl\"\nunit = \"mm\"\nmaterial = "
+                             "\"steel\"\n" +
+                             more;
+    return read_scene_text(text, "scene.toml", folder.path()).scene;
+  };
+  const auto refusal_with = [&](const std::string& stl, const std::string& more) -> std::string {
+    try {
+      scene_with(stl, more);
+    } catch (const catalog::InputError& error) {
+      return error.what();
+    }
+    return "not refused";
+  };
+  const dem_gpu::Scene scene =
+      scene_with(tetrahedron_stl(true), "motion = {oscillate = [0, 0, \"1 mm\"], frequency = \"20 Hz\"}\n");
+  const auto wall =
+      std::find_if(scene.walls.begin(), scene.walls.end(), [](const dem_gpu::Wall& one) { return one.name == "t"; });
+  ASSERT_NE(wall, scene.walls.end());
+  const auto& mesh = std::get<dem_gpu::MeshObject>(wall->geometry).mesh;
+  EXPECT_EQ(mesh.vertices.size(), 4u) << "corners at one place are one vertex";
+  EXPECT_DOUBLE_EQ(mesh.vertices[1][1], 0.01);
+  EXPECT_DOUBLE_EQ(wall->motion.amplitude.z, 1e-3);
+  EXPECT_NEAR(wall->motion.frequency, 20, 1e-12);
+  EXPECT_NE(refusal_with(tetrahedron_stl(false), "").find("inverted"), std::string::npos);
+  EXPECT_EQ(refusal_with(tetrahedron_stl(false), "bodies = \"inside\"\n"), "not refused");
+  EXPECT_NE(refusal_with("solid t\nfacet normal 0 0 1\n", "").find("ends before endsolid"), std::string::npos);
+  EXPECT_NE(refusal_with("junk", "").find("expected an STL file"), std::string::npos);
+}
+
 TEST(SceneReader, LiftersStandEvenlyAroundTheAxis) {
   const dem_gpu::Scene scene = read(drum_scene()).scene;
   const auto centre = [&](std::size_t lifter) {

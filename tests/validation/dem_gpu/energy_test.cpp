@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tests/support/dem_runs.h"
+#include "tests/support/wall_meshes.h"
 
 namespace {
 
@@ -203,6 +204,29 @@ TEST(Drum, WorkOfTheWallIsWhatIsLostAndStored) {
   double sum = 0;
   for (const auto& load : simulation.take_wall_loads()) sum += load.work;
   EXPECT_NEAR(sum, ledger.wall_work, 1e-12);
+}
+
+TEST(Energy, VibratingFloorClosesTheLedger) {
+  // Cubes and balls thrown about by a mesh floor that shakes at 3 g: the floor's work against what is stored and lost.
+  dem_gpu::Scene scene = empty_scene(0.6, 0.4);
+  scene.gravity = {0, 0, -9.81};
+  scene.polyhedral_law = dem_gpu::DepthPotential{2e9};
+  scene.shapes = {box_shape({0.02, 0.02, 0.02}), dem_gpu::sphere_shape("ball", 0.01)};
+  for (int i = 0; i < 6; ++i)
+    scene.bodies.push_back(body_at(i % 2, {0.03 * (i % 3) - 0.03, 0.03 * (i / 3) - 0.015, 0.02},
+                                   dem_gpu::axis_angle({0, 0.6, 0.8}, 0.3 * i)));
+  scene.walls = {mesh_wall("floor", flat_sheet(1, 8), 0.1)};
+  scene.walls[0].motion.amplitude = {0, 0, 0.002};
+  scene.walls[0].motion.frequency = 20;
+  scene.walls[0].motion.ramp_time = 0.05;
+  scene.run.steps_per_contact = 40;
+  dem_gpu::Simulation simulation(scene);
+  run_to(simulation, 0.5);
+  const auto ledger = simulation.ledger();
+  std::printf("vibrating floor: work %.4g J, throughput %.4g J, imbalance %.2g\n", ledger.wall_work, ledger.throughput,
+              ledger.imbalance() / ledger.throughput);
+  EXPECT_GT(ledger.wall_work, 5 * std::abs(ledger.kinetic + ledger.gravitational));
+  EXPECT_LT(std::abs(ledger.imbalance()), 1e-3 * ledger.throughput);  // what the ledger promises
 }
 
 }  // namespace

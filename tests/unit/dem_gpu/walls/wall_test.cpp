@@ -4,7 +4,8 @@
 
 #include <numbers>
 
-#include "dem_gpu/walls/wall_integrals.h"
+#include "dem_gpu/walls/disc_integrals.h"
+#include "dem_gpu/walls/wall_motion.h"
 #include "tests/support/pair_integrals.h"
 
 namespace {
@@ -195,6 +196,78 @@ TEST(WallMotion, SurfaceThatMapsOntoItselfDoesNotWearTheNeighbourList) {
   scene.walls = {shell, lifter};
   const Real reach = std::hypot(1.9, 0.1);
   EXPECT_NEAR(WallSet(scene, 0).largest_displacement(0, 0.1), 0.3 * reach, 1e-12);
+}
+
+TEST(WallMotion, OscillatesAboutItsPlaceAndAddsToTheRest) {
+  dem_gpu::Motion motion;
+  motion.velocity = {0, 0, 1};
+  motion.amplitude = {0.2, 0, 0};
+  motion.angular_amplitude = {0, 0.5, 0};
+  motion.angular_velocity = {0, 0, 3};
+  motion.frequency = 2;
+  motion.phase = 0.7;
+  motion.start_time = 0.1;
+  motion.ramp_time = 0.3;
+  EXPECT_EQ(place_at(motion, 0.1).shift, Vec3{});
+  const Real time = 1.23, elapsed = time - 0.1;
+  EXPECT_NEAR(place_at(motion, time).shift.x, 0.2 * (std::sin(4 * M_PI * elapsed + 0.7) - std::sin(0.7)), 1e-14);
+  for (const Real t : {0.25, 1.23}) {  // in the ramp and past it
+    const Real h = 1e-6;
+    const auto before = place_at(motion, t - h), after = place_at(motion, t + h);
+    const auto rate = rate_at(motion, t), mean = mean_rate(motion, t - h, t + h);
+    const auto turn = after.rotation * conjugate(before.rotation);
+    EXPECT_LT(norm((after.shift - before.shift) / (2 * h) - rate.velocity), 1e-8);
+    EXPECT_LT(norm((1 / h) * Vec3{turn.x, turn.y, turn.z} - rate.angular_velocity), 1e-8);
+    EXPECT_LT(norm(mean.velocity - rate.velocity) + norm(mean.angular_velocity - rate.angular_velocity), 1e-8);
+  }
+}
+
+TEST(WallSurface, PlateIsSolidBetweenItsFaces) {
+  const auto plate = record_of(dem_gpu::Disc{{0, 0, 0}, {0, 0, 1}, 1, 0.2});
+  EXPECT_NEAR(surface_distance(plate, {0.3, 0, 0.5}).depth, -0.5, 1e-15);
+  EXPECT_NEAR(surface_distance(plate, {0.3, 0, -0.5}).depth, -0.3, 1e-15);
+  EXPECT_NEAR(surface_distance(plate, {1.3, 0, 0.4}).depth, -0.5, 1e-15);
+  EXPECT_NEAR(surface_distance(plate, {0.3, 0, -0.15}).depth, 0.05, 1e-15);
+  EXPECT_NEAR(surface_distance(plate, {0.3, 0, -0.15}).into_wall.z, 1, 1e-15) << "nearer to the back";
+}
+
+TEST(WallIntegrals, DiscSmallerThanAFaceIsMet) {
+  const WallRecord disc = record_of(dem_gpu::Disc{{0.1, 0.05, 0}, {0, 0, 1}, 0.2});
+  const PairIntegrals shapes({unit_cube()}, {unit_cube()});
+  const auto part = dem_gpu::part_view(view(shapes.columns()), 0);
+  const Real d = 0.01;
+  const Vec3 centre{0, 0, 0.5 - d};
+  WallIntegrals integrals;
+  ASSERT_TRUE(integrate_part_in_disc(dem_gpu::PlacedPart(part, {}), centre, disc, integrals));
+  EXPECT_NEAR(integrals.force.z, M_PI * 0.04 * d, 1e-12) << "the rim's polygon has the disc's area";
+  EXPECT_LT(norm(integrals.moment - cross(Vec3{0.1, 0.05, 0}, integrals.force)), 1e-12);
+}
+
+TEST(WallIntegrals, FaceOnABallAndAShaft) {
+  const PairIntegrals shapes({unit_cube()}, {unit_cube()});
+  const auto part = dem_gpu::part_view(view(shapes.columns()), 0);
+  const auto force_on_face = [&](const WallRecord& wall, Real height) {
+    WallIntegrals integrals;
+    EXPECT_TRUE(integrate_part_outside(part, {{}, {0.05, 0.02, height + 0.5}, 1}, wall, integrals));
+    return integrals.force.z;
+  };
+  const Real radius = 0.1, h = 0.095, rho = std::sqrt(radius * radius - h * h);
+  const auto ball = record_of(dem_gpu::Ball{{0, 0, 0}, radius, dem_gpu::SolidSide::within});
+  const Real on_ball = 2 * M_PI * (radius * rho * rho / 2 - (std::pow(radius, 3) - std::pow(h, 3)) / 3);
+  EXPECT_NEAR(force_on_face(ball, h) / on_ball, 1, 0.01);  // kMostPiecesOutside
+  const auto shaft = record_of(dem_gpu::Cylinder{{-2, 0, 0}, {1, 0, 0}, 4, radius, dem_gpu::SolidSide::within});
+  // Across the strip: integral of R - sqrt(h2 + y2); the face covers a length of 1.
+  const Real across = radius * rho - (h * h * std::asinh(rho / h));
+  EXPECT_NEAR(force_on_face(shaft, h) / across, 1, 0.01);
+}
+
+TEST(WallSurface, BallInsideAndOutside) {
+  const auto bowl = record_of(dem_gpu::Ball{{1, 0, 0}, 2});
+  EXPECT_NEAR(surface_distance(bowl, {1, 1.5, 0}).depth, -0.5, 1e-15);
+  EXPECT_NEAR(surface_distance(bowl, {1, 1.5, 0}).into_wall.y, 1, 1e-15);
+  const auto ball = record_of(dem_gpu::Ball{{1, 0, 0}, 2, dem_gpu::SolidSide::within});
+  EXPECT_NEAR(surface_distance(ball, {1, 2.5, 0}).depth, -0.5, 1e-15);
+  EXPECT_NEAR(surface_distance(ball, {1, 2.5, 0}).into_wall.y, -1, 1e-15);
 }
 
 }  // namespace

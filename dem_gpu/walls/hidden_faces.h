@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dem_gpu/scene.h"
+
+namespace dem_gpu {
+
+/// The part of volume object `wall` with those faces made inner that lie wholly within another wall of the same motion:
+/// a lifter's foot in its shell, the seam of two flush blocks. Depth is not measured from them, so a welded joint is
+/// not felt.
+catalog::ConvexPart welded_part(const Scene& scene, std::size_t wall);
+
+}  // namespace dem_gpu

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dem_gpu/core/quaternion.h"
+#include "dem_gpu/scene.h"
+
+namespace dem_gpu {
+
+// A wall's prescribed motion as a function of time alone.
+
+bool is_moving(const Motion& motion);
+bool is_oscillating(const Motion& motion);
+
+/// From the wall's place at time 0: turned about the rotation centre, then moved.
+struct WallPlace {
+  Quaternion rotation;
+  Vec3 shift;  // of the rotation centre [m]
+};
+WallPlace place_at(const Motion& motion, Real time);
+
+/// Of the material point at the rotation centre, and of the wall about it, world frame.
+struct WallRate {
+  Vec3 velocity;          // [m/s]
+  Vec3 angular_velocity;  // [rad/s]
+};
+WallRate rate_at(const Motion& motion, Real time);
+/// Mean over the time between: what moves the wall exactly as far.
+WallRate mean_rate(const Motion& motion, Real from, Real to);
+
+/// How far the motion has gone between two times: the rotation centre [m], and turning about the axis of rotation and
+/// that of the swing [rad].
+struct WallTravel {
+  Real shift = 0, turn = 0, swing = 0;
+};
+WallTravel travel(const Motion& motion, Real from, Real to);
+
+}  // namespace dem_gpu
