@@ -19,7 +19,8 @@ struct Vector3 {
   friend bool operator==(const Vector3&, const Vector3&) = default;
 
   /// Widening loses nothing, so it needs no word; narrowing is `rounded`.
-  TALUS_HD operator Vector3<double>() const requires std::is_same_v<Scalar, float> { return {x, y, z}; }
+  template <class Wide>
+  requires(sizeof(Wide) > sizeof(Scalar)) TALUS_HD operator Vector3<Wide>() const { return {x, y, z}; }
 };
 
 using Vec3 = Vector3<Real>;

@@ -17,7 +17,8 @@ struct BasicHalfSpace {
   Vector3<Scalar> normal;
   Scalar offset = 0;
 
-  TALUS_HD operator BasicHalfSpace<double>() const requires std::is_same_v<Scalar, float> { return {normal, offset}; }
+  template <class Wide>
+  requires(sizeof(Wide) > sizeof(Scalar)) TALUS_HD operator BasicHalfSpace<Wide>() const { return {normal, offset}; }
 };
 using HalfSpace = BasicHalfSpace<Real>;
 using LocalHalfSpace = BasicHalfSpace<LocalReal>;
