@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "catalog/input_error.h"
+#include "dem_gpu/core/parallel.h"
 #include "dem_gpu/overlap_probe.h"
+#include "dem_gpu/walls/hidden_faces.h"
 
 namespace dem_gpu {
 namespace {
@@ -58,7 +60,18 @@ void refuse_concentric(const Model& model, const StartPair& pair) {
 }
 
 /// The pair alone, at rest, without gravity, damping and friction; b, or the wall, stays and a is moved by `shift`.
-Scene scene_of(const Scene& scene, const StartPair& pair, const Vec3& shift) {
+/// The wall of a pair as it meets bodies among all others.
+Wall wall_alone(const Model& model, int index) {
+  Wall wall = model.scene.walls[index];
+  if (auto* object = std::get_if<VolumeObject>(&wall.geometry))
+    object->part = welded_part(model.scene, static_cast<std::size_t>(index));
+  auto* mesh = std::get_if<MeshObject>(&wall.geometry);
+  if (mesh && mesh->depth == 0) mesh->depth = max_of(model.bodies.bounding_radius, Real(0));
+  return wall;
+}
+
+Scene scene_of(const Model& model, const StartPair& pair, const Vec3& shift) {
+  const Scene& scene = model.scene;
   Scene alone;
   alone.name = scene.name;
   alone.gravity = {};
@@ -81,15 +94,15 @@ Scene scene_of(const Scene& scene, const StartPair& pair, const Vec3& shift) {
   };
   add(scene.bodies[pair.a], shift);
   if (pair.has_wall())
-    alone.walls.push_back(scene.walls[pair.b]);
+    alone.walls.push_back(wall_alone(model, pair.b));
   else
     add(scene.bodies[pair.b], {});
   return alone;
 }
 
 /// Elastic force on a, moved by `shift` [N]; zero where the two do not touch.
-Vec3 force_at(const Scene& scene, const StartPair& pair, const Vec3& shift) {
-  const Snapshot snapshot = Simulation(scene_of(scene, pair, shift)).snapshot();
+Vec3 force_at(const Model& model, const StartPair& pair, const Vec3& shift) {
+  const Snapshot snapshot = Simulation(scene_of(model, pair, shift)).snapshot();
   Vec3 force;
   for (const SnapshotContact& contact : snapshot.contacts)
     force += (contact.body_a == 0 ? Real(1) : Real(-1)) * contact.force;
@@ -98,14 +111,14 @@ Vec3 force_at(const Scene& scene, const StartPair& pair, const Vec3& shift) {
 
 /// Work of the contact on a as a is drawn away along the force at the start [J]: the energy stored, for a law that is a
 /// gradient.
-Real stored_energy(const Scene& scene, const StartPair& pair, const Vec3& force, Real depth) {
+Real stored_energy(const Model& model, const StartPair& pair, const Vec3& force, Real depth) {
   const Vec3 away = unit_or(force, {0, 0, 1});
   Real touching = 0, apart = depth;
-  while (norm(force_at(scene, pair, apart * away)) > 0) touching = std::exchange(apart, 2 * apart);
+  while (norm(force_at(model, pair, apart * away)) > 0) touching = std::exchange(apart, 2 * apart);
   constexpr int kHalvings = 6;
   for (int i = 0; i < kHalvings; ++i) {
     const Real middle = (touching + apart) / 2;
-    (norm(force_at(scene, pair, middle * away)) > 0 ? touching : apart) = middle;
+    (norm(force_at(model, pair, middle * away)) > 0 ? touching : apart) = middle;
   }
   // Gauss-Legendre, 4 points a panel. A way out that is long against the depth crosses more than one contact.
   constexpr std::array<Real, 4> kPoint{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
@@ -117,7 +130,7 @@ Real stored_energy(const Scene& scene, const StartPair& pair, const Vec3& force,
   for (int panel = 0; panel < panels; ++panel)
     for (std::size_t i = 0; i < kPoint.size(); ++i) {
       const Real place = apart * (panel + (1 + kPoint[i]) / 2) / panels;
-      work += kWeight[i] * apart / (2 * panels) * dot(force_at(scene, pair, place * away), away);
+      work += kWeight[i] * apart / (2 * panels) * dot(force_at(model, pair, place * away), away);
     }
   return work;
 }
@@ -145,10 +158,7 @@ void refuse_deep_start(const Model& model, const State& state) {
 }
 
 void refuse_fast_walls(const Model& model, const State& state) {
-  Real full_speed_from = 0;
-  for (const Wall& wall : model.scene.walls)
-    full_speed_from = std::max(full_speed_from, wall.motion.start_time + wall.motion.ramp_time);
-  const Real travel = state.walls.largest_displacement(full_speed_from, full_speed_from + model.time_step);
+  const Real travel = state.walls.largest_displacement(model.time_step);
   const auto width = to_host(model.bodies.least_width);
   const auto thinnest = std::min_element(width.begin(), width.end());
   if (travel <= kTravelShare * *thinnest) return;
@@ -170,7 +180,7 @@ Real book_start_energy(const Model& model, State& state) {
   Real sum = 0;
   for (std::size_t c = 0; c < keys.size(); ++c) {
     if (!(depth[c] > kLeastDepth * width[key_body_a(keys[c])])) continue;
-    stored[c] = stored_energy(model.scene, pair_of(keys[c]), force[c], depth[c]);
+    stored[c] = stored_energy(model, pair_of(keys[c]), force[c], depth[c]);
     sum += stored[c];
   }
   assign(state.contacts.elastic_work, stored);

@@ -191,12 +191,20 @@ bool WallSet::move_to(Real time) {
   return has_changed;
 }
 
+Real WallSet::displacement(int wall, const WallTravel& gone) const {
+  return gone.shift + turn_reach_[wall] * gone.turn + swing_reach_[wall] * gone.swing;
+}
+
 Real WallSet::largest_displacement(Real from, Real to) const {
   Real largest = 0;
-  for (int w = 0; w < count(); ++w) {
-    const WallTravel gone = travel(walls_[w].motion, from, to);
-    largest = std::max(largest, gone.shift + turn_reach_[w] * gone.turn + swing_reach_[w] * gone.swing);
-  }
+  for (int w = 0; w < count(); ++w) largest = std::max(largest, displacement(w, travel(walls_[w].motion, from, to)));
+  return largest;
+}
+
+Real WallSet::largest_displacement(Real span) const {
+  Real largest = 0;
+  for (int w = 0; w < count(); ++w)
+    largest = std::max(largest, displacement(w, largest_travel(walls_[w].motion, span)));
   return largest;
 }
 

@@ -7,6 +7,7 @@
 #include "dem_gpu/core/quaternion.h"
 #include "dem_gpu/scene.h"
 #include "dem_gpu/snapshot.h"
+#include "dem_gpu/walls/wall_motion.h"
 
 namespace dem_gpu {
 
@@ -45,6 +46,8 @@ class WallSet {
   bool move_to(Real time);
   /// How far any wall's surface can have moved between two times, walls that map onto themselves left out [m].
   Real largest_displacement(Real from, Real to) const;
+  /// Bound of the same over any time of length `span` [m].
+  Real largest_displacement(Real span) const;
 
   int count() const { return static_cast<int>(now_.size()); }
   const std::vector<WallRecord>& records() const { return now_; }
@@ -54,6 +57,7 @@ class WallSet {
   bool has_moving_walls() const;
 
  private:
+  Real displacement(int wall, const WallTravel& gone) const;
   /// Finds walls that share a rim and keep sharing it.
   void join_rims();
 

@@ -92,4 +92,12 @@ WallTravel travel(const Motion& motion, Real from, Real to) {
           std::abs(swung) * norm(motion.angular_amplitude)};
 }
 
+WallTravel largest_travel(const Motion& motion, Real span) {
+  // The ramp of the amplitude adds to the swing's own rate; from end to end a swing goes twice its amplitude.
+  const Real rate = circular_frequency(motion) + (motion.ramp_time > 0 ? 2 / motion.ramp_time : Real(0));
+  const Real swung = motion.frequency != 0 ? std::min(Real(2), span * rate) : Real(0);
+  return {span * norm(motion.velocity) + swung * norm(motion.amplitude), span * norm(motion.angular_velocity),
+          swung * norm(motion.angular_amplitude)};
+}
+
 }  // namespace dem_gpu

@@ -33,5 +33,7 @@ struct WallTravel {
   Real shift = 0, turn = 0, swing = 0;
 };
 WallTravel travel(const Motion& motion, Real from, Real to);
+/// Bound of what it goes in any time of length `span` [s].
+WallTravel largest_travel(const Motion& motion, Real span);
 
 }  // namespace dem_gpu

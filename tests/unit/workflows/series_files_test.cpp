@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
+
+#include "dem_gpu/simulation.h"
 #include "tests/support/temporary_folder.h"
 #include "workflows/atomic_file.h"
 
@@ -40,6 +43,46 @@ TEST_F(SeriesFiles, DropsARowCutShort) {
 TEST_F(SeriesFiles, StartsNewWithoutCheckpointOrFile) {
   EXPECT_EQ(goes_on(1), "time[s],x\n9,9\n");
   EXPECT_EQ(goes_on(-1), "time[s],x\n9,9\n");
+}
+
+TEST_F(SeriesFiles, LoadsOfAGroupAreTheSumOfItsWalls) {
+  // A ball at rest in the corner of a floor and a side that are one group; the lone plane beside them is in none.
+  dem_gpu::Scene scene;
+  scene.gravity = {-1, 0, -9.81};
+  scene.materials = {{"glass", 2500}};
+  scene.contact = {{{0.5, 0}}};
+  scene.polyhedral_law = dem_gpu::DepthPotential{1e8};
+  scene.sphere_law = dem_gpu::LinearSpring{1e4};
+  scene.shapes = {dem_gpu::sphere_shape("ball", 0.01)};
+  scene.bodies.resize(1);
+  scene.bodies[0].position = {0.00999, 0, 0.00995};
+  scene.walls.resize(3);
+  const dem_gpu::Vec3 normals[] = {{0, 0, 1}, {1, 0, 0}, {-1, 0, 0}};
+  for (std::size_t w = 0; w < 3; ++w) {
+    scene.walls[w].name = std::string("w") + std::to_string(w);
+    scene.walls[w].geometry = dem_gpu::Plane{w == 2 ? dem_gpu::Vec3{1, 0, 0} : dem_gpu::Vec3{}, normals[w]};
+    if (w < 2) scene.walls[w].group = "corner";
+  }
+  dem_gpu::Simulation simulation(scene);
+  RunSeries series(folder_.path(), scene, -1);
+  simulation.advance(2000);
+  simulation.take_wall_loads();
+  simulation.advance(2000);
+  series.append(simulation, simulation.ledger(), 0);
+  std::istringstream rows(read_whole(folder_.path() / "groups.csv").value());
+  std::string header, group, none;
+  std::getline(rows, header);
+  ASSERT_TRUE(std::getline(rows, group));
+  EXPECT_FALSE(std::getline(rows, none)) << "one group, one row";
+  std::vector<std::string> cells;
+  std::istringstream row(group);
+  for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+  ASSERT_GE(cells.size(), 5u) << header;
+  EXPECT_EQ(cells[1], "corner");
+  // The mean load carries the ball's weight once it is at rest: to 1e-3 after some hundred damped oscillations.
+  const double mass = 2500 * 4.18879e-6;
+  EXPECT_NEAR(std::stod(cells[2]), -mass, 1e-3 * mass);
+  EXPECT_NEAR(std::stod(cells[4]), -9.81 * mass, 1e-3 * 9.81 * mass);
 }
 
 }  // namespace

@@ -67,12 +67,15 @@ RunGeometry sample_geometry() {
   geometry.body_material = {0, 1, 0};
   geometry.body_scale = {1, 1, 0.5};
   geometry.body_mass = {4.05, 0.263, 0.506};
-  geometry.walls.resize(2);
+  geometry.walls.resize(3);
   geometry.walls[0] = {"shell", "shell", WallKind::cylinder, {1, 2, 3}, {0, 1, 0}, 0.4, 0.5, 0, {}};
   geometry.walls[1].name = "lifter 1";
   geometry.walls[1].contact_class = "lifter";
   geometry.walls[1].kind = WallKind::volume_object;
   geometry.walls[1].part = tetrahedron(0.3);
+  geometry.walls[2].name = "chute";
+  geometry.walls[2].kind = WallKind::mesh;
+  geometry.walls[2].mesh = {{{0, 0, 0.1}, {1, 0, 0.2}, {0, 1, 0.3}, {1, 1, 0.4}}, {{0, 1, 2}, {1, 3, 2}}};
   return geometry;
 }
 
@@ -182,13 +185,17 @@ TEST(GeometryFile, RoundTripIsExact) {
   EXPECT_EQ(back.body_material, written.body_material);
   EXPECT_EQ(back.body_scale, written.body_scale);
   EXPECT_EQ(back.body_mass, written.body_mass);
-  ASSERT_EQ(back.walls.size(), 2u);
+  ASSERT_EQ(back.walls.size(), 3u);
   EXPECT_EQ(back.walls[0].kind, WallKind::cylinder);
   EXPECT_EQ(back.walls[0].point, (Vec3{1, 2, 3}));
   EXPECT_EQ(back.walls[0].length, 0.4);
   EXPECT_EQ(back.walls[0].base_radius, 0.5);
   EXPECT_EQ(back.walls[1].contact_class, "lifter");
   expect_equal(back.walls[1].part, written.walls[1].part);
+  EXPECT_TRUE(back.walls[1].mesh.vertices.empty());
+  EXPECT_EQ(back.walls[2].kind, WallKind::mesh);
+  EXPECT_EQ(back.walls[2].mesh.vertices, written.walls[2].mesh.vertices);
+  EXPECT_EQ(back.walls[2].mesh.faces, written.walls[2].mesh.faces);
 }
 
 TEST(GeometryFile, EqualGeometriesGiveEqualBytes) {
