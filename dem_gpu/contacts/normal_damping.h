@@ -112,7 +112,8 @@ struct OrbitDamping {
   /// `progress`: duration times the rates of the motion [-].
   TALUS_HD static int substeps(Real progress, bool is_first) {
     const int needed = static_cast<int>(std::ceil(progress / kProgressPerSubstep));
-    return std::min(std::max(needed, is_first ? kFirstSubsteps : 1), kMostSubsteps);
+    const int least = is_first ? kFirstSubsteps : 1, most = kMostSubsteps;
+    return std::min(std::max(needed, least), most);
   }
 
   /// Share of 1 / (rates) that a sub-step spans: restitution is then right to 1e-5 at 20 steps a contact.

@@ -65,8 +65,8 @@ TEST(BenchCases, TheVolumeLawGainsEnergyWhereTheDepthPotentialKeepsIt) {
 TEST(BenchCases, ContactTimeConvergesWithSecondOrderOrBetter) {
   for (const std::string impact : {"sphere-linear", "sphere-hertz-pair", "cube-face"}) {
     const CaseResult result = measured("contact", impact);
-    const double coarse = value_of(result, "contact time, relative error, 10 steps");
-    const double fine = value_of(result, "contact time, relative error, 40 steps");
+    const double coarse = value_of(result, "contact time, relative error, 20 steps");
+    const double fine = value_of(result, "contact time, relative error, 80 steps");
     const double order = std::log2(coarse / fine) / 2;
     EXPECT_GT(order, 1.9) << impact;
     if (impact == "cube-face") {
