@@ -15,6 +15,7 @@ using dem_gpu::Vec3;
 
 constexpr double kRadius = 0.1, kLength = 0.07;  // of the drum [m]
 constexpr double kCube = 0.02;                   // edge [m]
+constexpr double kApart = kLength / 2;           // of the cubes at the start: more than their diagonal [m]
 constexpr double kStart = 0.2, kEnd = 0.8;       // cubes settle, then the drum turns [s]
 
 /// Open shell about the y axis of flat segments whose area of cross-section is the cylinder's; normals inward.
@@ -41,7 +42,7 @@ Scene drum_scene(int segments) {
   scene.shapes = {dem_gpu::polyhedral_shape("cube", {dem_gpu::box_part({kCube, kCube, kCube})})};
   for (int i = 0; i < 18; ++i) {
     dem_gpu::Body body;
-    body.position = {0.03 * (i % 3 - 1), 0.02 + 0.03 * (i / 3 % 2), 0.03 * (i / 6) - 0.045};
+    body.position = {kApart * (i % 3 - 1), kApart * (0.5 + i / 3 % 2), kApart * (i / 6) - 0.045};
     body.orientation = dem_gpu::axis_angle({0.6, 0, 0.8}, 0.4 * i);
     scene.bodies.push_back(body);
   }
