@@ -33,10 +33,10 @@ engine: install  ## The engine alone: no PCL, CGAL, assimp or VTK
 	cmake --build --preset dem-cpu --parallel $(JOBS)
 
 test-engines: engine  ## Engine tests with OpenMP, and serial under the address and undefined-behaviour sanitizers
-	ctest --test-dir build-dem-cpu --output-on-failure -L 'unit|property|validation|backend|workflow'
+	ctest --test-dir build-dem-cpu --output-on-failure --parallel $(JOBS) -L 'unit|property|validation|backend|workflow'
 	cmake --preset asan
 	cmake --build --preset asan --parallel $(JOBS)
-	ctest --test-dir build-asan --output-on-failure -L 'unit|property|backend'
+	ctest --test-dir build-asan --output-on-failure --parallel $(JOBS) -L 'unit|property|backend'
 
 HARD_CASES_TABLE := docs/results/hard_cases.md
 hard-cases: install $(BUILD)/CMakeCache.txt  ## Every hard case, about an hour; writes docs/results/hard_cases.md

@@ -12,14 +12,39 @@
 #include <thrust/scan.h>
 #include <thrust/sort.h>
 
+#include <cstddef>
+
 #include "dem_gpu/core/device_vector.h"
 #include "dem_gpu/core/host_device.h"
 
 namespace dem_gpu {
 
+#ifdef TALUS_BACKEND_CUDA
+inline constexpr int kFewItems = 0;
+#else
+/// Up to this many items are worked off by the calling thread: waking the others takes longer, by far where they share
+/// their cores with other processes.
+inline constexpr int kFewItems = 32;
+#endif
+
+/// call(policy): the calling thread alone for a few items, else the backend.
+template <class Call>
+decltype(auto) with_policy_for(std::size_t items, const Call& call) {
+  if constexpr (kFewItems > 0) {
+    if (items <= kFewItems) return call(thrust::seq);
+  }
+  return call(thrust::device);
+}
+
 /// kernel(i) for i in [first, last), in any order.
 template <class Kernel>
 void parallel_for(int first, int last, const Kernel& kernel) {
+  if constexpr (kFewItems > 0) {
+    if (last - first <= kFewItems) {
+      for (int i = first; i < last; ++i) kernel(i);
+      return;
+    }
+  }
   if (first < last)
     thrust::for_each(thrust::device, thrust::counting_iterator<int>(first), thrust::counting_iterator<int>(last),
                      kernel);
@@ -27,22 +52,24 @@ void parallel_for(int first, int last, const Kernel& kernel) {
 
 template <class T>
 void fill(DeviceVector<T>& column, const T& value) {
-  thrust::fill(thrust::device, column.begin(), column.end(), value);
+  with_policy_for(column.size(), [&](auto policy) { thrust::fill(policy, column.begin(), column.end(), value); });
 }
 
 template <class T>
 void sort(DeviceVector<T>& keys) {
-  thrust::sort(thrust::device, keys.begin(), keys.end());
+  with_policy_for(keys.size(), [&](auto policy) { thrust::sort(policy, keys.begin(), keys.end()); });
 }
 
 template <class K, class V>
 void sort_by_key(DeviceVector<K>& keys, DeviceVector<V>& values) {
-  thrust::stable_sort_by_key(thrust::device, keys.begin(), keys.end(), values.begin());
+  with_policy_for(keys.size(),
+                  [&](auto policy) { thrust::stable_sort_by_key(policy, keys.begin(), keys.end(), values.begin()); });
 }
 
 /// counts[i] becomes the sum of all before i; returns the total. `counts` has one entry more than items.
 inline int exclusive_scan(DeviceVector<int>& counts) {
-  thrust::exclusive_scan(thrust::device, counts.begin(), counts.end(), counts.begin());
+  with_policy_for(counts.size(),
+                  [&](auto policy) { thrust::exclusive_scan(policy, counts.begin(), counts.end(), counts.begin()); });
   return counts.empty() ? 0 : static_cast<int>(counts.back());
 }
 
@@ -50,12 +77,14 @@ inline int exclusive_scan(DeviceVector<int>& counts) {
 template <class T>
 T max_of(const DeviceVector<T>& column, T empty_value) {
   if (column.empty()) return empty_value;
-  return *thrust::max_element(thrust::device, column.begin(), column.end());
+  return with_policy_for(column.size(),
+                         [&](auto policy) -> T { return *thrust::max_element(policy, column.begin(), column.end()); });
 }
 template <class T>
 T min_of(const DeviceVector<T>& column, T empty_value) {
   if (column.empty()) return empty_value;
-  return *thrust::min_element(thrust::device, column.begin(), column.end());
+  return with_policy_for(column.size(),
+                         [&](auto policy) -> T { return *thrust::min_element(policy, column.begin(), column.end()); });
 }
 
 /// Number of entries of an ascending column below `value`.

@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include "dem_gpu/contacts/contact_columns.h"
-#include "dem_gpu/contacts/friction/friction_contact.h"
+#include "dem_gpu/core/vec3.h"
 
 namespace dem_gpu {
 
@@ -33,31 +32,6 @@ struct TangentialSpring {
     }
     return trial;
   }
-};
-
-/// One tangential spring a contact, its stiffness in proportion to that of the normal contact.
-struct SpringFriction {
-  static constexpr bool kEnabled = true;
-  static constexpr bool kHasCouple = false;
-  using Patch = NoPatch;
-
-  Real tangential_stiffness_ratio;  // tangential over normal stiffness [-]
-
-  TALUS_HD FrictionForces apply(const ContactView& contacts, int c, const FrictionContact& contact, NoPatch) const {
-    const Vec3 normal = contact.elastic.normal;
-    const auto tangential = [&](const Vec3& v) { return v - dot(v, normal) * normal; };
-    TangentialSpring spring{contacts.tangential_displacement[c], tangential_stiffness_ratio * contact.elastic.stiffness,
-                            0};
-    spring.damping = 2 * contact.pair.damping.ratio[0] * std::sqrt(contact.effective_mass * spring.stiffness);
-    FrictionForces friction;
-    friction.force = spring.force(normal, tangential(contact.mean.velocity), tangential(contact.predicted.velocity),
-                                  contact.time_step, contact.pair.friction_coefficient * contact.normal_load());
-    friction.energy = Real(0.5) * spring.stiffness * norm_squared(spring.displacement);
-    contacts.tangential_displacement[c] = spring.displacement;
-    return friction;
-  }
-
-  TALUS_HD static void forget(const ContactView& contacts, int c) { contacts.tangential_displacement[c] = Vec3{}; }
 };
 
 }  // namespace dem_gpu

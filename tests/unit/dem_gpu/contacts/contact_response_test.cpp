@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "dem_gpu/contacts/restitution_damping.h"
+
 namespace {
 
 using dem_gpu::damping_ratios;
