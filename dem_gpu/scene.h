@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -158,6 +159,16 @@ struct Outflow {
   Real height = 0;          // [m]
 };
 
+/// Along an axis: what leaves the box at one end comes back in at the other.
+struct PeriodicSpan {
+  Real low = 0, high = 0;  // [m]
+};
+/// A box that repeats itself along the axes that have a span. Bodies meet across its faces; walls do not repeat
+/// themselves: each acts where it stands, on the bodies in the box.
+struct PeriodicBox {
+  std::array<std::optional<PeriodicSpan>, 3> span;  // along x, y, z
+};
+
 using PolyhedralLaw = std::variant<DepthPotential, OverlapVolume, HardeningDepthPotential>;
 /// The depth potential that a law is, hardening or not; null for the volume law.
 const DepthPotential* depth_potential(const PolyhedralLaw& law);
@@ -189,6 +200,7 @@ struct Scene {
   std::vector<Body> bodies;
   std::vector<Wall> walls;
   std::optional<Outflow> outflow;
+  std::optional<PeriodicBox> periodic;  // nullopt: no ghosts anywhere
   PolyhedralLaw polyhedral_law;
   SphereLaw sphere_law;
   std::optional<Friction> friction = Friction{};  // nullopt: frictionless, no tangential history anywhere
@@ -206,7 +218,8 @@ bool has_rolling_friction(const Scene& scene);
 bool has_adhesion(const Scene& scene);
 
 /// Refuses what cannot be simulated: indices out of range, negative sizes, zero stiffness, restitution outside [0, 1],
-/// two walls of one name, no bodies, fixed bodies that move, a time step longer than a fifth of the shortest contact.
+/// two walls of one name, no bodies, fixed bodies that move, a time step longer than a fifth of the shortest contact,
+/// a periodic box too narrow for its bodies, or bodies and walls that do not fit it (periodic/periodic_check.h).
 /// Throws catalog::InputError with the place and the remedy.
 void check(const Scene& scene);
 

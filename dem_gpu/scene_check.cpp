@@ -10,6 +10,7 @@
 #include "catalog/input_error.h"
 #include "catalog/triangle_mesh.h"
 #include "dem_gpu/meshes/contact_surface.h"
+#include "dem_gpu/periodic/periodic_check.h"
 #include "dem_gpu/scene.h"
 
 namespace dem_gpu {
@@ -370,6 +371,7 @@ void check(const Scene& scene) {
   check_contacts(scene);
   check_walls(scene);
   check_run(scene);
+  check_periodic(scene);
 }
 
 Real shortest_contact_time(const Scene& scene) {

@@ -15,6 +15,7 @@
 #include "dem_gpu/energy/energy.h"
 #include "dem_gpu/io/checkpoint.h"
 #include "dem_gpu/meshes/contact_surface.h"
+#include "dem_gpu/periodic/ghosts.h"
 #include "dem_gpu/shapes/least_width.h"
 #include "dem_gpu/start/start_overlap.h"
 #include "dem_gpu/step_builder.h"
@@ -206,6 +207,7 @@ struct Simulation::Engine {
               WallSet(scene, static_cast<int>(scene.shapes.size())),
               0,
               true,
+              {},
               {}},
         passes(build_step(scene)) {
     Accounts& accounts = state.accounts;
@@ -215,6 +217,7 @@ struct Simulation::Engine {
     accounts.wall_work_taken.assign(scene.walls.size(), 0);
     accounts.wall_impulse.assign(scene.walls.size(), Vec3{});
     accounts.wall_angular_impulse.assign(scene.walls.size(), Vec3{});
+    if (scene.periodic) start_ghosts(model, state);
     const BodyEnergy energy = body_energy(model, state);
     accounts.initial_kinetic = energy.kinetic;
     accounts.initial_gravitational = energy.gravitational;
@@ -238,7 +241,8 @@ struct Simulation::Engine {
       if (truncated[c]) {
         const ContactKey key = state.contacts.key[c];
         throw std::runtime_error("step " + std::to_string(state.step) + ": the overlap of body " +
-                                 std::to_string(key_body_a(key)) + " with " + std::to_string(key_body_b(key)) +
+                                 std::to_string(key_body_a(key)) + " with " +
+                                 std::to_string(GhostOwners(model, state).owner(key_body_b(key))) +
                                  " has a face of more corners than the engine holds; use a level with fewer vertices");
       }
   }
@@ -317,7 +321,7 @@ BulkState Simulation::bulk() const {
   BulkState bulk;
   const auto active = to_host(engine_->state.bodies.active);
   const auto mass = to_host(engine_->model.bodies.mass);
-  for (std::size_t i = 0; i < active.size(); ++i) {
+  for (std::size_t i = 0; i < mass.size(); ++i) {
     (active[i] ? bulk.active_bodies : bulk.removed_bodies) += 1;
     (active[i] ? bulk.active_mass : bulk.removed_mass) += mass[i];
   }
@@ -330,10 +334,14 @@ Snapshot Simulation::snapshot() const {
   Snapshot snapshot;
   snapshot.time = time();
   snapshot.step = state.step;
-  for (const char active : to_host(state.bodies.active)) snapshot.active.push_back(active != 0);
-  snapshot.position = to_host(state.bodies.position);
-  snapshot.orientation = to_host(state.bodies.orientation);
   snapshot.velocity = to_host(state.bodies.velocity);
+  const std::size_t body_count = snapshot.velocity.size();  // the columns that follow have ghosts behind the bodies
+  for (const char active : to_host(state.bodies.active)) snapshot.active.push_back(active != 0);
+  snapshot.active.resize(body_count);
+  snapshot.position = to_host(state.bodies.position);
+  snapshot.position.resize(body_count);
+  snapshot.orientation = to_host(state.bodies.orientation);
+  snapshot.orientation.resize(body_count);
   snapshot.angular_velocity = to_host(state.bodies.angular_velocity);
   for (std::size_t i = 0; i < snapshot.angular_velocity.size(); ++i)
     snapshot.angular_velocity[i] = rotate(snapshot.orientation[i], snapshot.angular_velocity[i]);
@@ -346,12 +354,15 @@ Snapshot Simulation::snapshot() const {
   const auto depth = to_host(state.contacts.depth);
   const auto force = to_host(state.contacts.force);
   const auto point = to_host(state.contacts.point);
+  const GhostOwners ghosts(engine_->model, state);
+  const PeriodicLattice lattice = lattice_of(engine_->model.scene);
   for (std::size_t c = 0; c < keys.size(); ++c) {
     if (!(depth[c] > 0)) continue;
-    const int b = key_body_b(keys[c]);
-    snapshot.contacts.push_back(
-        {key_body_a(keys[c]), is_wall_kind(key_kind(keys[c])) ? -1 - b : b, point[c], force[c], depth[c]});
+    const int a = key_body_a(keys[c]), b = key_body_b(keys[c]);
+    snapshot.contacts.push_back({a, is_wall_kind(key_kind(keys[c])) ? -1 - b : ghosts.owner(b),
+                                 point[c] - lattice.shift(lattice.step_to(snapshot.position[a])), force[c], depth[c]});
   }
+  for (Vec3& position : snapshot.position) position = lattice.inside(position);
   return snapshot;
 }
 

@@ -6,6 +6,7 @@
 #include "dem_gpu/broad_phase/neighbour_list.h"
 #include "dem_gpu/contacts/contact_passes.h"
 #include "dem_gpu/motion/motion_passes.h"
+#include "dem_gpu/periodic/ghosts.h"
 #include "dem_gpu/walls/wall_motion.h"
 
 namespace dem_gpu {
@@ -40,6 +41,7 @@ std::vector<std::unique_ptr<Pass>> build_step(const Scene& scene) {
   add(true, make_advance_bodies_pass);
   add(std::any_of(scene.walls.begin(), scene.walls.end(), moves), make_advance_walls_pass);
   add(true, make_neighbour_list_pass);
+  add(scene.periodic.has_value(), make_update_ghosts_pass);
   add(polyhedron_count > 1, make_polyhedron_contacts_pass, scene);
   add(polyhedron_count > 0 && has_walls, make_polyhedron_wall_contacts_pass, scene);
   add(polyhedron_count > 0 && has_objects, make_polyhedron_object_contacts_pass, scene);

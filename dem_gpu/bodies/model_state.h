@@ -9,6 +9,7 @@
 #include "dem_gpu/contacts/contact_columns.h"
 #include "dem_gpu/contacts/friction/friction_contact.h"
 #include "dem_gpu/meshes/mesh_columns.h"
+#include "dem_gpu/periodic/ghost_columns.h"
 #include "dem_gpu/scene.h"
 #include "dem_gpu/shapes/shape_columns.h"
 #include "dem_gpu/simulation.h"
@@ -67,6 +68,7 @@ struct State {
   Real listed_time = 0;  // of the neighbour list [s]
   bool list_is_stale = true;
   Accounts accounts;
+  GhostColumns ghosts;
 
   Real time(const Model& model) const { return static_cast<Real>(step) * model.time_step; }
 };

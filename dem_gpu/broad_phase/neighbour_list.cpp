@@ -9,6 +9,7 @@
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/energy/energy_watch.h"
 #include "dem_gpu/meshes/facet_lists.h"
+#include "dem_gpu/periodic/ghosts.h"
 #include "dem_gpu/walls/wall_surface.h"
 
 namespace dem_gpu {
@@ -54,9 +55,11 @@ TALUS_HD bool is_near_wall(const ShapeView& shapes, const MeshView& meshes, cons
   return field.depth > -reach && field.from_base > -reach && field.from_top > -reach;
 }
 
-/// Counts (keys == nullptr) or writes the candidate pairs that body i owns: with bodies of higher index, with walls.
+/// Counts (keys == nullptr) or writes the candidate pairs that body i owns: with bodies of higher index or their
+/// ghosts, with walls. A sphere meets every ghost of a polyhedron.
 struct ListPairs {
-  BodyView bodies;
+  BodyView bodies;  // with ghosts
+  GhostView ghosts;
   ShapeView shapes;
   MeshView meshes;
   CellGrid::View grid;
@@ -73,7 +76,7 @@ struct ListPairs {
       const Real radius = bodies.bounding_radius[i];
       ContactKey* out = keys ? keys + first[i] : nullptr;
       grid.visit_neighbours(x, [&](int j) {
-        if (j <= i || (bodies.is_fixed(i) && bodies.is_fixed(j))) return;
+        if (!owns_pair(i, j) || (bodies.is_fixed(i) && bodies.is_fixed(j))) return;
         const Real reach = radius + bodies.bounding_radius[j] + skin;
         if (norm_squared(bodies.position[j] - x) >= reach * reach) return;
         if (out) out[count] = pair_key(shapes.shapes, bodies.shape, i, j);
@@ -86,6 +89,13 @@ struct ListPairs {
       }
     }
     if (!keys) first[i] = count;
+  }
+
+  /// Of the ghosts a pair could be met at, it is met at the one: of the body of higher index, of the polyhedron.
+  TALUS_HD bool owns_pair(int i, int j) const {
+    if (!ghosts.is_ghost(j)) return i < j;
+    const auto is_sphere = [&](int body) { return shapes.shapes[bodies.shape[body]].part_count == 0; };
+    return is_sphere(i) == is_sphere(j) ? i < ghosts.owner(j) : is_sphere(i);
   }
 };
 
@@ -111,12 +121,13 @@ struct CountPartPairs {
 /// Copies what contact c carried before the list was rebuilt, if it was there.
 struct CarryHistory {
   ContactView from, to;
+  const ContactKey* former_key;  // of each contact of `to`, in `from`
   int from_count;
   ContactFeatures features;
 
   TALUS_HD void operator()(int c) const {
-    const int old = lower_bound(from.key, from_count, to.key[c]);
-    if (old == from_count || from.key[old] != to.key[c]) return;
+    const int old = lower_bound(from.key, from_count, former_key[c]);
+    if (old == from_count || from.key[old] != former_key[c]) return;
     to.force[c] = from.force[old];
     to.torque_a[c] = from.torque_a[old];
     to.torque_b[c] = from.torque_b[old];
@@ -145,10 +156,10 @@ struct CarryHistory {
   }
 };
 
-/// Entries of the two sides of contact c; a wall side sorts behind all bodies.
+/// Entries of the two sides of contact c; a ghost's are its owner's, a wall side sorts behind all bodies.
 struct ListIncidence {
   const ContactKey* key;
-  int body_count;
+  GhostView ghosts;
   std::int64_t* incident;
 
   TALUS_HD void operator()(int c) const {
@@ -156,7 +167,8 @@ struct ListIncidence {
       return (static_cast<std::int64_t>(body) << 32) | static_cast<std::int64_t>(2 * c + side);
     };
     incident[2 * c] = entry(key_body_a(key[c]), 0);
-    incident[2 * c + 1] = entry(is_wall_kind(key_kind(key[c])) ? body_count : key_body_b(key[c]), 1);
+    incident[2 * c + 1] =
+        entry(is_wall_kind(key_kind(key[c])) ? ghosts.body_count : ghosts.owner(key_body_b(key[c])), 1);
   }
 };
 
@@ -179,27 +191,50 @@ struct MarkListed {
 };
 
 DeviceVector<ContactKey> candidate_keys(const Model& model, State& state) {
-  const BodyView bodies = view(model.bodies, state.bodies);
+  const BodyView bodies = bodies_with_ghosts(model, state);
+  const GhostView ghosts = ghost_view(model, state);
+  const int body_count = ghosts.body_count;
   const Real reach = 2 * max_of(model.bodies.bounding_radius, Real(0)) + model.skin;
   CellGrid grid;
   grid.build(bodies, reach);
-  DeviceVector<int> first(static_cast<std::size_t>(bodies.count) + 1, 0);
-  ListPairs list{bodies,      view(model.shapes),   view(model.meshes),
-                 grid.view(), state.walls.device(), state.walls.count(),
-                 model.skin,  pointer(first),       nullptr};
-  parallel_for(0, bodies.count, list);
+  DeviceVector<int> first(static_cast<std::size_t>(body_count) + 1, 0);
+  ListPairs list{bodies,
+                 ghosts,
+                 view(model.shapes),
+                 view(model.meshes),
+                 grid.view(),
+                 state.walls.device(),
+                 state.walls.count(),
+                 model.skin,
+                 pointer(first),
+                 nullptr};
+  parallel_for(0, body_count, list);
   DeviceVector<ContactKey> keys(static_cast<std::size_t>(exclusive_scan(first)));
   list.keys = pointer(keys);
-  if (!keys.empty()) parallel_for(0, bodies.count, list);
+  if (!keys.empty()) parallel_for(0, body_count, list);
   sort(keys);
   return keys;
 }
 
-void list_incidence(State& state, int body_count) {
+/// `change`: of the ghosts, null without a periodic box.
+void carry_history(const Model& model, State& state, const GhostChange* change, ContactColumns& next) {
+  const int count = static_cast<int>(next.key.size()), old_count = static_cast<int>(state.contacts.key.size());
+  if (old_count == 0) return;
+  DeviceVector<ContactKey> former;
+  if (change) former = former_keys(model, state, next.key, *change);
+  parallel_for(
+      0, count,
+      CarryHistory{view(state.contacts), view(next), pointer(change ? former : next.key), old_count, model.features});
+  if (change) wrap_contact_points(model, *change, next);
+}
+
+void list_incidence(const Model& model, State& state) {
+  const GhostView ghosts = ghost_view(model, state);
+  const int body_count = ghosts.body_count;
   const int count = static_cast<int>(state.contacts.key.size());
   state.incident.resize(2 * static_cast<std::size_t>(count));
   state.incident_first.resize(static_cast<std::size_t>(body_count) + 1);
-  parallel_for(0, count, ListIncidence{pointer(state.contacts.key), body_count, pointer(state.incident)});
+  parallel_for(0, count, ListIncidence{pointer(state.contacts.key), ghosts, pointer(state.incident)});
   sort(state.incident);
   parallel_for(0, body_count + 1, FindIncidence{pointer(state.incident), 2 * count, pointer(state.incident_first)});
 }
@@ -253,7 +288,10 @@ class NeighbourList : public Pass {
 
 void build_neighbour_list(const Model& model, State& state) {
   collect_accounts(model, state);
-  const BodyView bodies = view(model.bodies, state.bodies);
+  const bool is_periodic = model.scene.periodic.has_value();
+  GhostChange change;
+  if (is_periodic) change = renew_ghosts(model, state);
+  const BodyView bodies = bodies_with_ghosts(model, state);
   ContactColumns next;
   next.key = candidate_keys(model, state);
   const int count = static_cast<int>(next.key.size());
@@ -263,15 +301,14 @@ void build_neighbour_list(const Model& model, State& state) {
     next.separating.assign(static_cast<std::size_t>(exclusive_scan(next.cache_begin)), SeparatingPlane{0});
   }
   if (model.features.has_meshes) list_facets(model, state, next);
-  const int old_count = static_cast<int>(state.contacts.key.size());
-  if (old_count > 0) parallel_for(0, count, CarryHistory{view(state.contacts), view(next), old_count, model.features});
+  carry_history(model, state, is_periodic ? &change : nullptr, next);
   state.contacts = std::move(next);
   for (int kind = 0; kind < kContactKinds; ++kind) {
     state.range[kind].first = count_below(state.contacts.key, contact_key(static_cast<ContactKind>(kind), 0, 0));
     state.range[kind].last = count_below(state.contacts.key, contact_key(static_cast<ContactKind>(kind + 1), 0, 0));
   }
-  list_incidence(state, bodies.count);
-  parallel_for(0, bodies.count, MarkListed{bodies});
+  list_incidence(model, state);
+  parallel_for(0, static_cast<int>(model.bodies.shape.size()), MarkListed{bodies});
   state.listed_time = state.time(model);
   state.list_is_stale = false;
   ++state.accounts.list_rebuilds;

@@ -14,6 +14,7 @@
 #include "dem_gpu/contacts/friction/tangential_spring.h"
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/core/pass.h"
+#include "dem_gpu/periodic/ghosts.h"
 
 namespace dem_gpu {
 
@@ -37,7 +38,7 @@ struct ContactScene {
 };
 
 inline ContactScene contact_scene(const Model& model, State& state) {
-  return {view(state.contacts), view(model.bodies, state.bodies),
+  return {view(state.contacts), bodies_with_ghosts(model, state),
           view(model.shapes),   view(model.meshes),
           state.walls.device(), pointer(model.pairs),
           model.material_count, model.time_step};

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "dem_gpu/core/parallel.h"
+#include "dem_gpu/periodic/ghosts.h"
 
 namespace dem_gpu {
 namespace {
@@ -21,14 +22,15 @@ double sum(const std::vector<T>& values) {
 }
 
 /// Stored energy of the contacts that the marked bodies take part in goes with them.
-double stored_in_contacts(const State& state, const std::vector<int>& is_leaving) {
+double stored_in_contacts(const Model& model, const State& state, const std::vector<int>& is_leaving) {
   const auto keys = to_host(state.contacts.key);
   const auto elastic = to_host(state.contacts.elastic_work);
   const auto tangential = to_host(state.contacts.tangential_energy);
+  const GhostOwners ghosts(model, state);
   double stored = 0;
   for (std::size_t c = 0; c < elastic.size(); ++c) {
-    const bool leaves =
-        is_leaving[key_body_a(keys[c])] || (!is_wall_kind(key_kind(keys[c])) && is_leaving[key_body_b(keys[c])]);
+    const bool leaves = is_leaving[key_body_a(keys[c])] ||
+                        (!is_wall_kind(key_kind(keys[c])) && is_leaving[ghosts.owner(key_body_b(keys[c]))]);
     if (leaves) stored += elastic[c] + tangential[c];
   }
   return stored;
@@ -43,11 +45,15 @@ BodyEnergy body_energy(const Model& model, const State& state) {
   const auto position = to_host(state.bodies.position);
   const auto velocity = to_host(state.bodies.velocity);
   const auto angular_velocity = to_host(state.bodies.angular_velocity);
+  const auto wraps = to_host(state.ghosts.wraps);
+  const Vec3 length = lattice_of(model.scene).length;
   BodyEnergy energy;
   for (std::size_t i = 0; i < mass.size(); ++i) {
     if (!active[i]) continue;
     energy.kinetic += kinetic_energy(mass[i], velocity[i], inertia[i], angular_velocity[i]);
-    energy.gravitational -= mass[i] * dot(model.scene.gravity, position[i]);
+    // Along the way it went: what comes back in at the top of a periodic box has not been lifted.
+    const Vec3 travelled = wraps.empty() ? position[i] : position[i] + hadamard(wraps[i], length);
+    energy.gravitational -= mass[i] * dot(model.scene.gravity, travelled);
   }
   return energy;
 }
@@ -55,13 +61,13 @@ BodyEnergy body_energy(const Model& model, const State& state) {
 void remove_bodies(const Model& model, State& state, const std::vector<int>& is_leaving) {
   const BodyEnergy before = body_energy(model, state);
   auto active = to_host(state.bodies.active);
-  for (std::size_t i = 0; i < active.size(); ++i)
+  for (std::size_t i = 0; i < is_leaving.size(); ++i)
     if (is_leaving[i]) active[i] = 0;
   assign(state.bodies.active, active);
   const BodyEnergy after = body_energy(model, state);
   state.accounts.removed_gravitational += before.gravitational - after.gravitational;
   state.accounts.removed_energy += before.kinetic - after.kinetic + before.gravitational - after.gravitational +
-                                   stored_in_contacts(state, is_leaving);
+                                   stored_in_contacts(model, state, is_leaving);
   state.list_is_stale = true;
 }
 

@@ -7,6 +7,7 @@
 
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/energy/energy.h"
+#include "dem_gpu/periodic/ghosts.h"
 
 namespace dem_gpu {
 namespace {
@@ -34,23 +35,26 @@ std::size_t fastest_body(const State& state) {
 }
 
 /// Side b of a contact.
-std::string partner_name(const Model& model, ContactKey key) {
+std::string partner_name(const Model& model, const GhostOwners& ghosts, ContactKey key) {
   const int b = key_body_b(key);
-  return is_wall_kind(key_kind(key)) ? "wall '" + model.scene.walls[b].name + "'" : "body " + std::to_string(b);
+  return is_wall_kind(key_kind(key)) ? "wall '" + model.scene.walls[b].name + "'"
+                                     : "body " + std::to_string(ghosts.owner(b));
 }
 
 /// "; its deepest contact is with body 7" or wall.
 std::string deepest_partner(const Model& model, const State& state, int body) {
   const auto keys = to_host(state.contacts.key);
   const auto depth = to_host(state.contacts.depth);
+  const GhostOwners ghosts(model, state);
   std::string partner;
   Real deepest = 0;
   for (std::size_t c = 0; c < keys.size(); ++c) {
-    const int a = key_body_a(keys[c]), b = key_body_b(keys[c]);
+    const int a = key_body_a(keys[c]);
     const bool is_wall = is_wall_kind(key_kind(keys[c]));
-    if ((a != body && (is_wall || b != body)) || depth[c] <= deepest) continue;
+    const int b = is_wall ? -1 : ghosts.owner(key_body_b(keys[c]));
+    if ((a != body && b != body) || depth[c] <= deepest) continue;
     deepest = depth[c];
-    partner = is_wall || a == body ? partner_name(model, keys[c]) : "body " + std::to_string(a);
+    partner = is_wall || a == body ? partner_name(model, ghosts, keys[c]) : "body " + std::to_string(a);
   }
   return partner.empty() ? "" : "; its deepest contact is with " + partner;
 }
@@ -91,7 +95,8 @@ void refuse_pushed_through(const Model& model, const State& state) {
   char depth[48];
   std::snprintf(depth, sizeof depth, "%.3g diameters of the smaller", double(overlap[c]));
   throw std::runtime_error(step_place(model, state) + "body " + std::to_string(key_body_a(key)) + " and " +
-                           partner_name(model, key) + " have sunk into one another by " + depth +
+                           partner_name(model, GhostOwners(model, state), key) + " have sunk into one another by " +
+                           depth +
                            ", and been pushed through; use stiffer contacts (a smaller largest_overlap or a higher "
                            "at_speed), or see what presses them together");
 }

@@ -9,12 +9,13 @@
 #include "catalog/input_error.h"
 #include "dem_gpu/broad_phase/neighbour_list.h"
 #include "dem_gpu/io/hdf5_file.h"
+#include "dem_gpu/periodic/ghosts.h"
 
 namespace dem_gpu {
 namespace {
 
 constexpr const char* kKind = "talus-checkpoint";
-constexpr int kVersion = 3;
+constexpr int kVersion = 4;
 constexpr std::int64_t kLocalRealBytes = sizeof(LocalReal);
 
 /// A whole checkpoint that does not fit the simulation: no reason to look at an earlier one.
@@ -76,6 +77,8 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("accounts/wall_work_taken", a.wall_work_taken);
   visit("accounts/wall_impulse", a.wall_impulse);
   visit("accounts/wall_angular_impulse", a.wall_angular_impulse);
+  visit("ghosts/id", state.ghosts.id);
+  visit("ghosts/wraps", state.ghosts.wraps);
 }
 
 /// How a column's elements stand in the file: as rows of numbers.
@@ -150,6 +153,10 @@ std::int64_t fingerprint(const Model& model) {
     mix(&record.direction, sizeof(Vec3));
   }
   if (model.scene.outflow) mix(&*model.scene.outflow, sizeof(Outflow));
+  if (model.scene.periodic) {
+    const PeriodicLattice lattice = lattice_of(model.scene);
+    mix(&lattice, sizeof(lattice));
+  }
   const ContactFeatures& features = model.features;
   for (const bool has : {features.has_friction, features.has_ledger, features.has_walls, features.has_polyhedra,
                          features.has_friction_couples, features.has_spheres, features.has_meshes})
@@ -219,6 +226,7 @@ void read_one(const std::filesystem::path& path, const Model& model, State& stat
   accounts.largest_rate = file.double_attribute("largest_rate");
   accounts.list_rebuilds = file.integer_attribute("list_rebuilds");
   state.walls.move_to(state.time(model));
+  if (model.scene.periodic) fit_columns_to_ghosts(model, state);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "catalog/input_error.h"
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/overlap_probe.h"
+#include "dem_gpu/periodic/ghosts.h"
 #include "dem_gpu/walls/hidden_faces.h"
 
 namespace dem_gpu {
@@ -23,11 +24,17 @@ constexpr Real kLeastDepth = Real(1e-9);
 struct StartPair {
   ContactKind kind;
   int a, b;
+  Vec3 shift_b{};  // to where a meets b, across a face of a periodic box [m]
 
   bool has_wall() const { return is_wall_kind(kind); }
 };
 
-StartPair pair_of(ContactKey key) { return {key_kind(key), key_body_a(key), key_body_b(key)}; }
+StartPair pair_of(ContactKey key, const GhostOwners& ghosts, const PeriodicLattice& lattice) {
+  const ContactKind kind = key_kind(key);
+  const int a = key_body_a(key), b = key_body_b(key);
+  if (is_wall_kind(kind)) return {kind, a, b};
+  return {kind, a, ghosts.owner(b), lattice.shift(ghosts.step(b))};
+}
 
 std::string name_of_partner(const Scene& scene, const StartPair& pair) {
   return pair.has_wall() ? "wall '" + scene.walls[pair.b].name + "'" : "body " + std::to_string(pair.b);
@@ -46,10 +53,10 @@ void refuse_concentric(const Model& model, const StartPair& pair) {
   const Body &a = scene.bodies[pair.a], &b = scene.bodies[pair.b];
   const Shape &shape_a = scene.shapes[a.shape], &shape_b = scene.shapes[b.shape];
   const OverlapProbe probe(shape_a, shape_b, scene.polyhedral_law);
-  const Real volume =
-      probe
-          .overlap({{a.position, normalized(a.orientation), a.scale}, {b.position, normalized(b.orientation), b.scale}})
-          .volume;
+  const Real volume = probe
+                          .overlap({{a.position, normalized(a.orientation), a.scale},
+                                    {b.position + pair.shift_b, normalized(b.orientation), b.scale}})
+                          .volume;
   const Real smaller =
       std::min(shape_a.volume * a.scale * a.scale * a.scale, shape_b.volume * b.scale * b.scale * b.scale);
   if (volume <= scene.run.largest_start_overlap * smaller) return;
@@ -96,7 +103,7 @@ Scene scene_of(const Model& model, const StartPair& pair, const Vec3& shift) {
   if (pair.has_wall())
     alone.walls.push_back(wall_alone(model, pair.b));
   else
-    add(scene.bodies[pair.b], {});
+    add(scene.bodies[pair.b], pair.shift_b);
   return alone;
 }
 
@@ -142,8 +149,10 @@ void refuse_deep_start(const Model& model, const State& state) {
   const auto keys = to_host(state.contacts.key);
   const auto depth = to_host(state.contacts.depth);
   const auto width = to_host(model.bodies.least_width);
+  const GhostOwners ghosts(model, state);
+  const PeriodicLattice lattice = lattice_of(scene);
   for (std::size_t c = 0; c < keys.size(); ++c) {
-    const StartPair pair = pair_of(keys[c]);
+    const StartPair pair = pair_of(keys[c], ghosts, lattice);
     const Real thinner = pair.has_wall() ? width[pair.a] : std::min(width[pair.a], width[pair.b]);
     if (depth[c] > scene.run.largest_start_overlap * thinner) {
       char text[96];
@@ -152,7 +161,7 @@ void refuse_deep_start(const Model& model, const State& state) {
       refuse(scene, pair, text);
     }
     if (depth[c] == 0 && pair.kind == ContactKind::polyhedron_polyhedron &&
-        norm(scene.bodies[pair.a].position - scene.bodies[pair.b].position) < thinner / 2)
+        norm(scene.bodies[pair.a].position - scene.bodies[pair.b].position - pair.shift_b) < thinner / 2)
       refuse_concentric(model, pair);
   }
 }
@@ -177,10 +186,12 @@ Real book_start_energy(const Model& model, State& state) {
   const auto force = to_host(state.contacts.force);
   const auto width = to_host(model.bodies.least_width);
   auto stored = to_host(state.contacts.elastic_work);
+  const GhostOwners ghosts(model, state);
+  const PeriodicLattice lattice = lattice_of(model.scene);
   Real sum = 0;
   for (std::size_t c = 0; c < keys.size(); ++c) {
     if (!(depth[c] > kLeastDepth * width[key_body_a(keys[c])])) continue;
-    stored[c] = stored_energy(model, pair_of(keys[c]), force[c], depth[c]);
+    stored[c] = stored_energy(model, pair_of(keys[c], ghosts, lattice), force[c], depth[c]);
     sum += stored[c];
   }
   assign(state.contacts.elastic_work, stored);
