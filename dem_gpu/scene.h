@@ -162,11 +162,13 @@ struct Outflow {
 /// Along an axis: what leaves the box at one end comes back in at the other.
 struct PeriodicSpan {
   Real low = 0, high = 0;  // [m]
+  friend bool operator==(const PeriodicSpan&, const PeriodicSpan&) = default;
 };
 /// A box that repeats itself along the axes that have a span. Bodies meet across its faces; walls do not repeat
 /// themselves: each acts where it stands, on the bodies in the box.
 struct PeriodicBox {
   std::array<std::optional<PeriodicSpan>, 3> span;  // along x, y, z
+  friend bool operator==(const PeriodicBox&, const PeriodicBox&) = default;
 };
 
 using PolyhedralLaw = std::variant<DepthPotential, OverlapVolume, HardeningDepthPotential>;

@@ -111,6 +111,13 @@ Json contact_law(const Scene& scene) {
   return json;
 }
 
+Json json_of(const dem_gpu::PeriodicBox& box) {
+  const auto span = [](const std::optional<dem_gpu::PeriodicSpan>& one) {
+    return one ? Json{one->low, one->high} : Json(nullptr);
+  };
+  return {{"x", span(box.span[0])}, {"y", span(box.span[1])}, {"z", span(box.span[2])}};
+}
+
 Json materials(const Scene& scene) {
   Json json = Json::array();
   for (const dem_gpu::Material& material : scene.materials)
@@ -224,6 +231,8 @@ nlohmann::ordered_json resolved_scene(const AssembledScene& assembled, const Sce
   json["outflow"] = nullptr;
   if (scene.outflow)
     json["outflow"] = {{"direction", json_of(scene.outflow->direction)}, {"height", scene.outflow->height}};
+  json["periodic"] = nullptr;
+  if (scene.periodic) json["periodic"] = json_of(*scene.periodic);
   json["bodies"] = {{"count", scene.bodies.size()},
                     {"where", "geometry.h5 (shape, material, scale) and snapshots/snapshot_000000.h5 (state)"}};
   return json;

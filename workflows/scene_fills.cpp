@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
 #include <utility>
 
 #include "workflows/scene_sections.h"
@@ -10,6 +14,8 @@ constexpr std::int64_t kMostBodies = 5'000'000;
 constexpr int kMostParts = 1024;
 // Tables of passing must end at 100 % within this share.
 constexpr double kFullShareTolerance = 1e-6;
+// A region may end as far beyond a face of a periodic box, in widths of the box: units converted on the way.
+constexpr double kRegionRounding = 1e-12;
 
 ShapeSource read_shapes(TomlTable& table, const std::filesystem::path& base_folder) {
   const int sources = table.has("shapes_from") + table.has("sphere") + table.has("box") + table.has("ring");
@@ -60,6 +66,29 @@ FillRegion read_region(TomlTable where) {
   }
   where.finish();
   return region;
+}
+
+/// Lowest and highest coordinate of a region along an axis [m].
+std::array<double, 2> extent(const FillRegion& region, std::size_t axis) {
+  if (const auto* box = std::get_if<BoxRegion>(&region)) return {box->low[axis], box->high[axis]};
+  const auto& cylinder = std::get<CylinderRegion>(region);
+  const double along = cylinder.axis[axis], end = cylinder.base[axis] + along * cylinder.length;
+  const double rim = cylinder.radius * std::sqrt(std::max(1 - along * along, 0.0));
+  return {std::min(cylinder.base[axis], end) - rim, std::max(cylinder.base[axis], end) + rim};
+}
+
+void refuse_outside(TomlTable& fill, const FillRegion& region, const dem_gpu::PeriodicBox& box) {
+  constexpr std::array<char, 3> axes{'x', 'y', 'z'};
+  for (std::size_t axis = 0; axis < axes.size(); ++axis) {
+    const auto& span = box.span[axis];
+    if (!span) continue;
+    const auto [low, high] = extent(region, axis);
+    const double rounding = kRegionRounding * (span->high - span->low);
+    if (low >= span->low - rounding && high <= span->high + rounding) continue;
+    fill.refuse("where", std::string("the region spans ") + std::to_string(low) + " .. " + std::to_string(high) +
+                             " m along " + axes[axis] + ", the periodic box only " + std::to_string(span->low) +
+                             " .. " + std::to_string(span->high) + " m; shrink the region or widen the box");
+  }
 }
 
 FillLayout read_layout(TomlTable& table) {
@@ -173,6 +202,7 @@ std::vector<FillDescription> read_fills(TomlTable& file, const dem_gpu::Scene& s
       fill.amount = table.quantity("mass", Dimension::mass, kPositive);
     if (std::optional<TomlTable> size = table.optional_table("size")) read_size_distribution(*size, fill);
     fill.region = read_region(table.table("where"));
+    if (scene.periodic) refuse_outside(table, fill.region, *scene.periodic);
     fill.layout = read_layout(table);
     if (table.has("velocity")) fill.velocity = table.vector("velocity", Dimension::speed);
     table.finish();

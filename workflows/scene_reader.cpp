@@ -2,6 +2,7 @@
 #include "workflows/scene_reader.h"
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <utility>
 
@@ -148,6 +149,28 @@ void read_outflow(TomlTable& file, Scene& scene) {
   scene.outflow = outflow;
 }
 
+dem_gpu::PeriodicSpan read_span(TomlTable& table, std::string_view axis) {
+  const toml::array& ends = table.array(axis);
+  if (ends.size() != 2) table.refuse(axis, std::string(axis) + " must be a pair: where the box begins and ends");
+  const std::string place(axis);
+  const dem_gpu::PeriodicSpan span{table.element(ends[0], place + "[0]", Dimension::length, kAny),
+                                   table.element(ends[1], place + "[1]", Dimension::length, kAny)};
+  if (!(span.low < span.high)) table.refuse(axis, place + " must ascend: the box begins below where it ends");
+  return span;
+}
+
+void read_periodic(TomlTable& file, Scene& scene) {
+  std::optional<TomlTable> table = file.optional_table("periodic");
+  if (!table) return;
+  constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
+  dem_gpu::PeriodicBox box;
+  for (std::size_t axis = 0; axis < axes.size(); ++axis)
+    if (table->has(axes[axis])) box.span[axis] = read_span(*table, axes[axis]);
+  table->finish();
+  if (box == dem_gpu::PeriodicBox{}) table->refuse("state along which axes, such as x = [\"0 mm\", \"120 mm\"]");
+  scene.periodic = box;
+}
+
 }  // namespace
 
 int read_material_name(TomlTable& table, std::string_view key, const std::vector<dem_gpu::Material>& materials) {
@@ -173,7 +196,7 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
   Scene& scene = description.scene;
   TomlTable table(root, file.string(), "");
   table.expect_only({"name", "gravity", "run", "material", "contact", "contact_law", "ledger", "motion", "wall",
-                     "lifters", "outflow", "fill", "chain"});
+                     "lifters", "outflow", "periodic", "fill", "chain"});
   scene.name = table.text("name", file.stem().string());
   if (scene.name.empty() || scene.name == "." || scene.name == ".." || scene.name.find('/') != std::string::npos)
     table.refuse("name", "name must not be empty, \".\" or \"..\" or hold '/': the run's folder is named for it");
@@ -190,6 +213,7 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
   }
   read_walls(table, read_motions(table), base_folder, scene);
   read_outflow(table, scene);
+  read_periodic(table, scene);
   description.fills = read_fills(table, scene, base_folder);
   description.chains = read_chains(table, scene, base_folder);
   if (description.fills.empty() && description.chains.empty())

@@ -9,6 +9,7 @@
 #include "dem_gpu/io/hdf5_file.h"
 #include "tests/support/dem_runs.h"
 #include "tests/support/mixed_scene.h"
+#include "tests/support/periodic_scene.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/wall_meshes.h"
 
@@ -88,6 +89,29 @@ TEST(Checkpoint, MovingMeshesResumeInTheSameBytes) {
     second.advance(2500 - broken_at);
     EXPECT_EQ(snapshot_bytes(second, folder), expected) << "broken at step " << broken_at;
   }
+}
+
+TEST(Checkpoint, PeriodicRunResumesInTheSameBytes) {
+  const TemporaryFolder folder;
+  Simulation unbroken(periodic_incline());
+  unbroken.advance(6000);
+  const std::string expected = snapshot_bytes(unbroken, folder);
+  EXPECT_GT(unbroken.bulk().contacts, 5);
+  for (const int broken_at : {0, 1, 1111, 3456, 5999}) {
+    Simulation first(periodic_incline());
+    first.advance(broken_at);
+    first.write_checkpoint(folder.path());
+    Simulation second(periodic_incline());
+    second.read_checkpoint(folder.path());
+    second.advance(6000 - broken_at);
+    EXPECT_EQ(snapshot_bytes(second, folder), expected) << "broken at step " << broken_at;
+    EXPECT_EQ(second.ledger().gravitational, unbroken.ledger().gravitational);
+    EXPECT_EQ(second.ledger().imbalance(), unbroken.ledger().imbalance());
+  }
+  dem_gpu::Scene wider = periodic_incline();
+  wider.periodic->span[0]->high += 0.001;
+  Simulation other(wider);
+  EXPECT_NE(refusal([&] { other.read_checkpoint(folder.path()); }).find("another scene"), std::string::npos);
 }
 
 TEST(Checkpoint, IsTheSameBytesEachTime) {

@@ -2,9 +2,15 @@
 // What a scene does not need is not there: no pass, no column.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
+#include "catalog/input_error.h"
 #include "dem_gpu/contacts/contact_columns.h"
+#include "dem_gpu/io/hdf5_file.h"
 #include "dem_gpu/simulation.h"
 #include "tests/support/mixed_scene.h"
+#include "tests/support/periodic_scene.h"
+#include "tests/support/temporary_folder.h"
 #include "tests/support/wall_meshes.h"
 
 namespace {
@@ -40,7 +46,11 @@ TEST(Absent, PassesOfWhatIsNotThere) {
   scene.outflow.reset();
   EXPECT_EQ(passes(scene),
             (Names{"advance_bodies", "advance_walls", "neighbour_list", "polyhedron_mesh_contacts", "gather_forces"}));
-  EXPECT_EQ(passes(mixed_scene()).size(), 12u) << "everything but meshes";
+  EXPECT_EQ(passes(mixed_scene()).size(), 12u) << "everything but meshes and a periodic box";
+  scene = spheres();
+  scene.periodic = periodic_box({-0.1, -0.1, 0}, {2, 1, 2}, "xz");
+  EXPECT_EQ(passes(scene),
+            (Names{"advance_bodies", "neighbour_list", "update_ghosts", "sphere_contacts", "gather_forces"}));
 }
 
 TEST(Absent, ColumnsOfWhatIsNotThere) {
@@ -75,6 +85,33 @@ TEST(Absent, ColumnsOfWhatIsNotThere) {
   EXPECT_EQ(lengths(rolling_spheres), (Lengths{10, 0, 0, 0, 0, 0, 0, 0, 0, 10, 0}));
   rolling_spheres.has_friction_couples = true;
   EXPECT_EQ(lengths(rolling_spheres), (Lengths{10, 0, 0, 0, 0, 0, 10, 0, 0, 10, 0}));
+}
+
+/// Of the one version that this build writes.
+dem_gpu::io::Hdf5Reader checkpoint_of_today(const std::filesystem::path& path) {
+  for (int version = 1;; ++version) try {
+      return dem_gpu::io::Hdf5Reader(path, "talus-checkpoint", version);
+    } catch (const catalog::InputError&) {
+      if (version == 50) throw;
+    }
+}
+
+TEST(Absent, GhostsOfWhatIsNotPeriodic) {
+  const auto lengths = [](const dem_gpu::Scene& scene) {
+    const TemporaryFolder folder;
+    dem_gpu::Simulation(scene).write_checkpoint(folder.path());
+    const dem_gpu::io::Hdf5Reader file = checkpoint_of_today(folder / "checkpoint.h5");
+    return std::vector<std::size_t>{file.read<std::int64_t>("ghosts/id").size(),
+                                    file.read<double>("ghosts/wraps", 3).size() / 3,
+                                    file.read<double>("bodies/position", 3).size() / 3};
+  };
+  using Lengths = std::vector<std::size_t>;
+  dem_gpu::Scene scene = spheres();
+  EXPECT_EQ(lengths(scene), (Lengths{0, 0, 2}));
+  scene.periodic = periodic_box({-0.1, -0.1, 0}, {2, 1, 2});
+  EXPECT_EQ(lengths(scene), (Lengths{0, 2, 2})) << "no body near a face";
+  scene.periodic = periodic_box({-0.001, -0.001, 0}, {2, 1, 2}, "xy");
+  EXPECT_EQ(lengths(scene), (Lengths{1 + 2 + 1, 2, 6})) << "one body at an edge, one at a face";
 }
 
 TEST(Absent, MotionIsTheSameWithoutTheLedger) {

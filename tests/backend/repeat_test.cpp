@@ -6,6 +6,7 @@
 
 #include "tests/support/dem_runs.h"
 #include "tests/support/mixed_scene.h"
+#include "tests/support/periodic_scene.h"
 #include "tests/support/temporary_folder.h"
 
 #if defined(TALUS_BACKEND_TBB)
@@ -34,7 +35,10 @@ std::string outcome(const dem_gpu::Scene& scene, int steps) {
 
 constexpr int kSteps = 6000;  // past the opening of the gate
 
-TEST(Repeat, TwiceIsTheSame) { EXPECT_EQ(outcome(mixed_scene(), kSteps), outcome(mixed_scene(), kSteps)); }
+TEST(Repeat, TwiceIsTheSame) {
+  EXPECT_EQ(outcome(mixed_scene(), kSteps), outcome(mixed_scene(), kSteps));
+  EXPECT_EQ(outcome(periodic_incline(), kSteps), outcome(periodic_incline(), kSteps));
+}
 
 TEST(Repeat, StateIsTheSameHoweverOftenItIsAsked) {
   dem_gpu::Simulation asked(mixed_scene()), silent(mixed_scene());
@@ -55,22 +59,24 @@ TEST(Repeat, StateIsTheSameHoweverOftenItIsAsked) {
 
 TEST(Repeat, AnyNumberOfThreadsIsTheSame) {
 #if defined(TALUS_BACKEND_TBB)
-  const auto on_threads = [](int threads) {
+  const auto on_threads = [](const dem_gpu::Scene& scene, int threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-    return outcome(mixed_scene(), kSteps);
+    return outcome(scene, kSteps);
   };
 #elif defined(TALUS_BACKEND_OMP)
-  const auto on_threads = [](int threads) {
+  const auto on_threads = [](const dem_gpu::Scene& scene, int threads) {
     omp_set_num_threads(threads);
-    return outcome(mixed_scene(), kSteps);
+    return outcome(scene, kSteps);
   };
 #else
   GTEST_SKIP() << "this back end has no threads of the CPU";
-  const auto on_threads = [](int) { return std::string(); };
+  const auto on_threads = [](const dem_gpu::Scene&, int) { return std::string(); };
 #endif
-  const std::string one = on_threads(1);
-  EXPECT_EQ(one, on_threads(2));
-  EXPECT_EQ(one, on_threads(4));
+  for (const dem_gpu::Scene& scene : {mixed_scene(), periodic_incline()}) {
+    const std::string one = on_threads(scene, 1);
+    EXPECT_EQ(one, on_threads(scene, 2));
+    EXPECT_EQ(one, on_threads(scene, 4));
+  }
 }
 
 TEST(Repeat, SceneIsWhatItIsMeantToBe) {
@@ -83,6 +89,30 @@ TEST(Repeat, SceneIsWhatItIsMeantToBe) {
   EXPECT_EQ(simulation.snapshot().wall_present[2], 0) << "the gate is open";
   EXPECT_GT(most_contacts, 5u);
   EXPECT_GT(simulation.quality().list_rebuilds, 2);
+  const auto ledger = simulation.ledger();
+  EXPECT_LT(std::abs(ledger.imbalance()), 0.02 * ledger.throughput);
+}
+
+TEST(Repeat, PeriodicSceneIsWhatItIsMeantToBe) {
+  const dem_gpu::Scene scene = periodic_incline();
+  dem_gpu::Simulation simulation(scene);
+  int across = 0, wraps = 0;
+  auto before = simulation.snapshot();
+  for (int part = 0; part < 60; ++part) {
+    simulation.advance(kSteps / 60);
+    const auto now = simulation.snapshot();
+    for (std::size_t i = 0; i < now.position.size(); ++i) {
+      EXPECT_TRUE(!now.active[i] || is_in_box(*scene.periodic, now.position[i])) << "body " << i;
+      wraps += norm(now.position[i] - before.position[i]) > 0.05;
+    }
+    for (const auto& contact : now.contacts)
+      across += contact.body_b >= 0 && norm(now.position[contact.body_a] - now.position[contact.body_b]) > 0.04;
+    before = now;
+  }
+  EXPECT_GT(across, 10) << "contacts across the faces";
+  EXPECT_GT(wraps, 10) << "bodies through the faces";
+  EXPECT_EQ(simulation.bulk().removed_bodies, 1);
+  EXPECT_EQ(simulation.bulk().active_bodies + 1, static_cast<int>(scene.bodies.size()));
   const auto ledger = simulation.ledger();
   EXPECT_LT(std::abs(ledger.imbalance()), 0.02 * ledger.throughput);
 }
