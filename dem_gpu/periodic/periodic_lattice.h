@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "dem_gpu/core/vec3.h"
 
 namespace dem_gpu {
@@ -54,10 +57,7 @@ struct PeriodicLattice {
  private:
   TALUS_HD static int side(Real x, Real low, Real high) { return x < low ? -1 : x >= high ? 1 : 0; }
   TALUS_HD static Real inside(Real x, Real low, Real high, Real length) {
-    if (x < low) {
-      const Real back = x + length;
-      return back < high ? back : low;
-    }
+    if (x < low) return std::min(x + length, std::nextafter(high, low));
     return x >= high ? std::max(x - length, low) : x;
   }
 };

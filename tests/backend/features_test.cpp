@@ -2,9 +2,6 @@
 // What a scene does not need is not there: no pass, no column.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
-#include "catalog/input_error.h"
 #include "dem_gpu/contacts/contact_columns.h"
 #include "dem_gpu/io/hdf5_file.h"
 #include "dem_gpu/simulation.h"
@@ -87,20 +84,12 @@ TEST(Absent, ColumnsOfWhatIsNotThere) {
   EXPECT_EQ(lengths(rolling_spheres), (Lengths{10, 0, 0, 0, 0, 0, 10, 0, 0, 10, 0}));
 }
 
-/// Of the one version that this build writes.
-dem_gpu::io::Hdf5Reader checkpoint_of_today(const std::filesystem::path& path) {
-  for (int version = 1;; ++version) try {
-      return dem_gpu::io::Hdf5Reader(path, "talus-checkpoint", version);
-    } catch (const catalog::InputError&) {
-      if (version == 50) throw;
-    }
-}
-
 TEST(Absent, GhostsOfWhatIsNotPeriodic) {
   const auto lengths = [](const dem_gpu::Scene& scene) {
     const TemporaryFolder folder;
     dem_gpu::Simulation(scene).write_checkpoint(folder.path());
-    const dem_gpu::io::Hdf5Reader file = checkpoint_of_today(folder / "checkpoint.h5");
+    const int any_version = 99;
+    const dem_gpu::io::Hdf5Reader file(folder / "checkpoint.h5", "talus-checkpoint", any_version);
     return std::vector<std::size_t>{file.read<std::int64_t>("ghosts/id").size(),
                                     file.read<double>("ghosts/wraps", 3).size() / 3,
                                     file.read<double>("bodies/position", 3).size() / 3};

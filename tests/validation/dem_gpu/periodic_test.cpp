@@ -89,11 +89,10 @@ double difference(const dem_gpu::PeriodicBox& box, const Vec3& shift, const dem_
   return largest;
 }
 
-/// Middles of the box and of its faces, edges and corners.
+/// Middles of the box, of its faces, of its edges, and its corner: opposite ones are one place.
 std::vector<Vec3> places(const Vec3& length) {
   std::vector<Vec3> centres;
-  for (int i = 0; i < 27; ++i)
-    centres.push_back(0.5 * hadamard({Real(i % 3 - 1), Real(i / 3 % 3 - 1), Real(i / 9 - 1)}, length));
+  for (int i = 0; i < 8; ++i) centres.push_back(0.5 * hadamard({Real(i & 1), Real(i >> 1 & 1), Real(i >> 2)}, length));
   return centres;
 }
 
@@ -112,11 +111,9 @@ TEST(PeriodicBox, CollisionIsTheSameAcrossFacesEdgesAndCorners) {
       double moved = 0, periodic = 0;
       for (const Vec3& centre : places(length)) {
         Scene scene = collision(kind, with_ball, centre);
-        if (norm(centre) > 0.49 * norm(length)) {  // a corner
-          Simulation elsewhere(scene);
-          elsewhere.advance(kSteps);
-          moved = std::max(moved, difference(box, centre, expected, elsewhere.snapshot()));
-        }
+        Simulation elsewhere(scene);
+        elsewhere.advance(kSteps);
+        moved = std::max(moved, difference(box, centre, expected, elsewhere.snapshot()));
         scene.periodic = box;
         for (dem_gpu::Body& body : scene.bodies) body.position = in_box(box, body.position);
         Simulation across(scene);
@@ -126,7 +123,7 @@ TEST(PeriodicBox, CollisionIsTheSameAcrossFacesEdgesAndCorners) {
         EXPECT_NEAR(ledger.dissipated(), free_ledger.dissipated(), 10 * kRounding * ledger.initial) << kind.name;
         EXPECT_NEAR(ledger.imbalance(), free_ledger.imbalance(), 10 * kRounding * ledger.initial) << kind.name;
       }
-      std::printf("  %s%s, across 6 faces, 12 edges, 8 corners: differ by %.1e of speed and size; moved %.1e\n",
+      std::printf("  %s%s, across faces, edges and the corner: differ by %.1e of speed and size; moved %.1e\n",
                   kind.name, with_ball ? " and a ball" : "", periodic, moved);
       EXPECT_LT(periodic, std::max(2 * moved, kRounding)) << kind.name;
       EXPECT_LT(moved, 1e3 * kRounding) << kind.name << ": rounding measures nothing here";
