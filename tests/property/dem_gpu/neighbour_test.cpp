@@ -6,6 +6,7 @@
 
 #include "dem_gpu/simulation.h"
 #include "tests/support/pair_integrals.h"
+#include "tests/support/periodic_scene.h"
 
 namespace {
 
@@ -54,6 +55,45 @@ TEST(NeighbourList, FindsAllTouchingSpheres) {
   }
   EXPECT_GT(total, 3000u);
   EXPECT_GT(simulation.quality().list_rebuilds, 1);
+}
+
+TEST(NeighbourList, FindsAllTouchingAcrossTheFacesOfABox) {
+  // In boxes from the narrowest allowed on; each pair once, at its nearest images.
+  std::mt19937 random(33);
+  std::uniform_real_distribution<Real> share(0, 1), size(0.5, 1);
+  for (const std::string axes : {"x", "yz", "xyz"})
+    for (const Real width : {0.041, 0.05, 0.2}) {
+      Scene scene = empty_scene(1, 0);
+      scene.sphere_law = dem_gpu::LinearSpring{0.1};  // soft: they pass through one another
+      scene.shapes = {dem_gpu::sphere_shape("ball", 0.01)};
+      const Vec3 low{-0.3, 0.1, 7};
+      scene.periodic = periodic_box(low, width * Vec3{1, 1, 1}, axes);
+      const int count = width < 0.1 ? 12 : 250;
+      for (int i = 0; i < count; ++i) {
+        const Vec3 place = low + width * Vec3{share(random), share(random), share(random)};
+        scene.bodies.push_back(body_at(0, place, {}, 0.5 * random_direction(random)));
+        scene.bodies.back().scale = size(random);
+      }
+      scene.run.time_step = 4e-4;
+      scene.run.largest_start_overlap = 10;
+      Simulation simulation(scene);
+      std::size_t total = 0;
+      for (int round = 0; round < 20; ++round) {
+        simulation.advance(round == 0 ? 1 : 7);
+        const auto now = simulation.snapshot();
+        Pairs expected;
+        for (int i = 0; i < count; ++i)
+          for (int j = i + 1; j < count; ++j)
+            if (norm(nearest_offset(*scene.periodic, now.position[i], now.position[j])) <
+                0.01 * (scene.bodies[i].scale + scene.bodies[j].scale))
+              expected.insert({i, j});
+        EXPECT_EQ(found(now), expected) << axes << " " << width;
+        EXPECT_EQ(now.contacts.size(), expected.size()) << "each once";
+        total += expected.size();
+      }
+      EXPECT_GT(total, 100u);
+      EXPECT_GT(simulation.quality().list_rebuilds, 1);
+    }
 }
 
 TEST(NeighbourList, FindsAllTouchingPolyhedra) {

@@ -11,8 +11,10 @@
 
 #include "catalog/input_error.h"
 #include "catalog/mass_properties.h"
+#include "dem_gpu/simulation.h"
 #include "tests/support/scene_text.h"
 #include "tests/support/temporary_folder.h"
+#include "workflows/resolved_scene.h"
 #include "workflows/run_promises.h"
 #include "workflows/scene_assembly.h"
 
@@ -218,6 +220,64 @@ height = "-5 cm"
   EXPECT_NEAR(volume_moments(triangulated(std::get<dem_gpu::VolumeObject>(scene.walls[5].geometry).part)).volume,
               1.0 / 6, 1e-12);
   EXPECT_DOUBLE_EQ(scene.outflow->height, -0.05);
+}
+
+/// Balls over a floor in a box that is periodic along `axes`, the lines of [periodic].
+std::string periodic_scene(const std::string& axes) {
+  return R"(
+[run]
+end_time = 1
+[material.rock]
+density = 2700
+[contact.default]
+restitution = 0.5
+friction = 0.5
+[contact_law]
+sphere_stiffness = "1e5 N/m"
+[periodic]
+)" + axes +
+         R"(
+[[wall]]
+name = "floor"
+type = "plane"
+point = [0, 0, "-2 mm"]
+normal = [0, 0, 1]
+material = "rock"
+[[fill]]
+sphere = {diameter = "10 mm"}
+material = "rock"
+count = 5
+where = {box = {min = [0, "-50 mm", 0], max = ["120 mm", "50 mm", "200 mm"]}}
+)";
+}
+
+TEST(SceneReader, ReadsAPeriodicBox) {
+  EXPECT_FALSE(read(drum_scene()).scene.periodic);
+  const SceneDescription description = read(periodic_scene("x = [\"0 mm\", \"120 mm\"]\ny = [\"-5 cm\", 0.05]"));
+  const dem_gpu::PeriodicBox& box = *description.scene.periodic;
+  EXPECT_EQ(box.span[0], (dem_gpu::PeriodicSpan{0, 0.12}));
+  EXPECT_EQ(box.span[1], (dem_gpu::PeriodicSpan{-0.05, 0.05}));
+  EXPECT_FALSE(box.span[2]);
+  EXPECT_NO_THROW(dem_gpu::Simulation(assemble_scene(description).scene));
+  EXPECT_EQ(resolved_scene(assemble_scene(description), description, "")["periodic"].dump(),
+            R"({"x":[0.0,0.12],"y":[-0.05,0.05],"z":null})");
+}
+
+TEST(SceneReader, RefusesAPeriodicBoxThatIsNone) {
+  const auto expect_refused = [](const std::string& axes, const std::string& message) {
+    const std::string line = refusal(periodic_scene(axes));
+    EXPECT_NE(line.find(message), std::string::npos) << line;
+    EXPECT_EQ(line.rfind("scene.toml:", 0), 0u) << line;
+  };
+  const std::string x = "x = [\"0 mm\", \"120 mm\"]\n";
+  expect_refused(x + "w = [0, 1]", "periodic: unknown key 'w'");
+  expect_refused("", "state along which axes");
+  expect_refused("x = [\"120 mm\", 0]", "x must ascend");
+  expect_refused("x = [0.12, 0.12]", "x must ascend");
+  expect_refused("x = [0, 1, 2]", "x must be a pair");
+  expect_refused("x = [0, \"1 kg\"]", "x[1]");
+  expect_refused(x + "y = [\"-50 mm\", \"40 mm\"]", "the region spans -0.050000 .. 0.050000 m along y");
+  expect_refused(x + "z = [\"0 mm\", \"150 mm\"]", "shrink the region or widen the box");
 }
 
 TEST(SceneReader, ReadsHardeningAndWhereTheOverlapIsMeant) {
