@@ -68,7 +68,7 @@ struct RunGeometry {
 struct SnapshotContact {
   int body_a = 0;
   int body_b = 0;      // body index, or -1 - wall index
-  Vec3 point;          // [m]
+  Vec3 point;          // beside body_a, also where the two meet across a face of a periodic box [m]
   Vec3 force;          // on body a, world frame [N]
   double overlap = 0;  // largest depth [m]
 };
@@ -77,7 +77,7 @@ struct Snapshot {
   double time = 0;  // [s]
   std::int64_t step = 0;
   std::vector<char> active;               // n_bodies: 0 once removed by the outflow
-  std::vector<Vec3> position;             // n_bodies [m]
+  std::vector<Vec3> position;             // n_bodies, in the box of a periodic scene [m]
   std::vector<Quaternion> orientation;    // n_bodies, body to world
   std::vector<Vec3> velocity;             // n_bodies [m/s]
   std::vector<Vec3> angular_velocity;     // n_bodies, world frame [rad/s]

@@ -122,6 +122,19 @@ void check_bodies_inside(const Scene& scene, const Side& side) {
   }
 }
 
+/// A wall that goes past the faces must move alike at both: turn about the periodic axis, if at all.
+void check_turning(const Wall& wall, const Side& side) {
+  for (const Vec3& turn : {wall.motion.angular_velocity, wall.motion.angular_amplitude}) {
+    const Real about_axis = along(turn, side.axis), square = norm_squared(turn);
+    if (square - about_axis * about_axis > kNormalRounding * square)
+      throw catalog::InputError(
+          "wall '" + wall.name + "': it turns about another axis than " + side.name() +
+          ", along which the box is periodic, so that it would carry bodies at one face otherwise "
+          "than at the other; turn it about " +
+          side.name() + ", or make the box not periodic along it");
+  }
+}
+
 void check_wall(const Wall& wall, const Side& side, Real reach) {
   const std::string place = "wall '" + wall.name + "': ", box = range_text(side.span.low, side.span.high);
   if (const auto* plane = std::get_if<Plane>(&wall.geometry)) {
@@ -130,6 +143,7 @@ void check_wall(const Wall& wall, const Side& side, Real reach) {
                                 ") is periodic, so that bodies would jump into the wall as they cross a face; turn it "
                                 "square to " +
                                 side.name() + " (tilt gravity instead), or make the box not periodic along it");
+    check_turning(wall, side);
     return;
   }
   WallExtent extent{side.axis};
@@ -143,6 +157,7 @@ void check_wall(const Wall& wall, const Side& side, Real reach) {
     throw catalog::InputError(place + where + ", and walls do not repeat themselves with the periodic box (" + box +
                               "): bodies at a face would meet it on one side alone; let it go past both faces by " +
                               metres(reach) + ", or keep it as far away from them inside");
+  if (goes_past) check_turning(wall, side);
 }
 
 }  // namespace

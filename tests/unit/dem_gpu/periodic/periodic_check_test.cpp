@@ -102,6 +102,20 @@ TEST(PeriodicCheck, RefusesWallsThatEndAtAFace) {
   EXPECT_EQ(refusal(wall(dem_gpu::Ball{{0.04, 0.04, 0}, 0.01, dem_gpu::SolidSide::within})), "accepted");
 }
 
+TEST(PeriodicCheck, RefusesWallsThatTurnThroughAFace) {
+  const auto turning = [](const Vec3& angular_velocity, const Vec3& amplitude, Real radius) {
+    return [=](Scene& s) {
+      s.periodic->span[1].reset();
+      s.walls[0].geometry = dem_gpu::Cylinder{{-0.03, 0.04, 0}, {1, 0, 0}, 0.14, radius};
+      s.walls[0].motion.angular_velocity = angular_velocity;
+      s.walls[0].motion.angular_amplitude = amplitude;
+    };
+  };
+  EXPECT_EQ(refusal(turning({3, 0, 0}, {}, 0.5)), "accepted");
+  expect_refused(turning({3, 0.1, 0}, {}, 0.5), {"wall 'floor'", "another axis than x", "turn it about x"});
+  expect_refused(turning({}, {0, 0, 0.1}, 0.5), {"another axis than x"});
+}
+
 TEST(PeriodicCheck, RefusesAnOutflowAlongAPeriodicAxis) {
   expect_refused([](Scene& s) { s.outflow = dem_gpu::Outflow{{1, 0, 0}, -1}; }, {"outflow", "leans towards x"});
   EXPECT_EQ(refusal([](Scene& s) { s.outflow = dem_gpu::Outflow{{0, 0, 1}, -1}; }), "accepted");
