@@ -13,9 +13,9 @@ namespace dem_gpu {
 struct DepthPotential {
   Real stiffness = 0;  // k [N/m3]
   /// Depth beyond which the field stays constant / equivalent diameter of the body [-]. The force saturates there: at
-  /// k A cap a field. Flat cubes feel the default from 19 % of their edge on, and it keeps 84 % of the energy that holds
-  /// them apart without a cap; caps of 0.02 to 0.25 cost the same, 0.5 a fifth more on a rough rock (bench laws, cases
-  /// cap-*).
+  /// k A cap a field. Flat cubes feel the default from 19 % of their edge on, and it keeps 84 % of the energy that
+  /// holds them apart without a cap; caps of 0.02 to 0.25 cost the same, 0.5 a fifth more on a rough rock (bench laws,
+  /// cases cap-*).
   Real depth_cap = Real(0.15);
 
   /// Of two flat faces, at touch [N/m3].
