@@ -202,10 +202,18 @@ Real WallSet::largest_displacement(Real from, Real to) const {
 }
 
 Real WallSet::largest_displacement(Real span) const {
-  Real largest = 0;
-  for (int w = 0; w < count(); ++w)
-    largest = std::max(largest, displacement(w, largest_travel(walls_[w].motion, span)));
-  return largest;
+  return count() > 0 ? bound_of_displacement(fastest(span), span) : Real(0);
+}
+
+int WallSet::fastest(Real span) const {
+  int fastest = 0;
+  for (int w = 1; w < count(); ++w)
+    if (bound_of_displacement(w, span) > bound_of_displacement(fastest, span)) fastest = w;
+  return fastest;
+}
+
+Real WallSet::bound_of_displacement(int wall, Real span) const {
+  return displacement(wall, largest_travel(walls_[wall].motion, span));
 }
 
 bool WallSet::has_moving_walls() const {

@@ -48,6 +48,8 @@ class WallSet {
   Real largest_displacement(Real from, Real to) const;
   /// Bound of the same over any time of length `span` [m].
   Real largest_displacement(Real span) const;
+  /// The wall that it belongs to.
+  int fastest(Real span) const;
 
   int count() const { return static_cast<int>(now_.size()); }
   const std::vector<WallRecord>& records() const { return now_; }
@@ -58,6 +60,7 @@ class WallSet {
 
  private:
   Real displacement(int wall, const WallTravel& gone) const;
+  Real bound_of_displacement(int wall, Real span) const;
   /// Finds walls that share a rim and keep sharing it.
   void join_rims();
 
