@@ -159,6 +159,17 @@ void WallSet::join_rims() {
     }
 }
 
+void WallSet::weld(const std::vector<std::vector<int>>& welds) {
+  std::vector<int> all;
+  for (std::size_t w = 0; w < welds.size(); ++w) {
+    now_[w].first_weld = static_cast<int>(all.size());
+    now_[w].weld_count = static_cast<int>(welds[w].size());
+    all.insert(all.end(), welds[w].begin(), welds[w].end());
+  }
+  assign(welds_, all);
+  assign(device_, now_);
+}
+
 Vec3 WallSet::translation(int wall) const {
   const Motion& motion = walls_[wall].motion;
   return motion.rotation_centre - rotate(rotation(wall), motion.rotation_centre) + place_at(motion, time_).shift;
