@@ -48,15 +48,6 @@ TALUS_HD inline WallField wall_field(const WallRecord& wall, const Vec3& x) {
   return {depth, position.along, wall.length - position.along};
 }
 
-/// Normal of a wall's surface nearest to x, from the wall to the bodies.
-TALUS_HD inline Vec3 wall_normal(const WallRecord& wall, const Vec3& x) {
-  if (wall.kind == WallKind::plane || wall.kind == WallKind::disc) return wall.direction;
-  const Real side = wall.solid_within ? 1 : -1;
-  if (wall.kind == WallKind::sphere) return side * unit_or(x - wall.point, wall.direction);
-  const Real slope = (wall.top_radius - wall.base_radius) / wall.length;
-  return (side / std::sqrt(1 + slope * slope)) * (axial_position(wall, x).outward - slope * wall.direction);
-}
-
 /// Signed distance of a point from a wall's surface, positive in the solid, and the unit direction into the solid
 /// there.
 struct SurfaceDistance {

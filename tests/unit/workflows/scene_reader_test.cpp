@@ -458,6 +458,8 @@ TEST(SceneReader, RefusesNamesThatCannotBeToldApart) {
                       "[[wall]]\nname = \"lifter_02\"\ntype = \"plane\"\npoint = [0, 0, -1]\nnormal = [0, 0, 1]\n"
                       "material = \"steel\"\n[[lifters]]"),
                  "two walls are named \"lifter_02\"");
+  expect_refused(drum_scene() + "[motion.spin]\nrotate = \"3 rpm\"\n[motion.spin]\nrotate = \"4 rpm\"\n",
+                 "motion.spin");
   for (const char* name : {".", "..", "a/b"})
     expect_refused(with(drum_scene(), "name = \"drum\"", "name = \"" + std::string(name) + "\""), "name must not");
 }
