@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -278,6 +279,8 @@ struct BadScene {
   const char* mark;      // in the new text: where the message must point
   const char* message;   // part of it
 };
+
+void PrintTo(const BadScene& bad, std::ostream* out) { *out << bad.message; }
 
 class RefusedScene : public testing::TestWithParam<BadScene> {};
 
