@@ -93,6 +93,7 @@ TALUS_HD inline Vector3<Scalar> any_perpendicular(const Vector3<Scalar>& n) {
 }
 
 /// To the precision of contact geometry.
+TALUS_HD inline LocalReal rounded(Real a) { return static_cast<LocalReal>(a); }
 template <class Scalar>
 TALUS_HD inline LocalVec3 rounded(const Vector3<Scalar>& a) {
   return {static_cast<LocalReal>(a.x), static_cast<LocalReal>(a.y), static_cast<LocalReal>(a.z)};

@@ -9,14 +9,14 @@ namespace dem_gpu {
 /// The part of a plane that a ball, shaft or cone reaches: a rectangle in the plane, so that a face much larger than
 /// the wall is cut into pieces where the wall is.
 struct CurvedWindow {
-  HalfSpace side[6];
+  LocalHalfSpace side[6];
   int count = 0;
   bool is_empty = false;
   Real half_width = 0;  // across the wall [m]
 
   TALUS_HD void limit(const Vec3& direction, const Vec3& middle, Real width) {
-    side[count++] = {direction, dot(direction, middle) + width};
-    side[count++] = {-direction, width - dot(direction, middle)};
+    side[count++] = rounded(HalfSpace{direction, dot(direction, middle) + width});
+    side[count++] = rounded(HalfSpace{-direction, width - dot(direction, middle)});
     half_width = width;
   }
 };

@@ -12,11 +12,19 @@
 
 namespace dem_gpu {
 
-/// Corner of a triangle with the wall's field there, position relative to the body's centre.
+/// Corner of a triangle with the wall's field there, position relative to the body's centre. The field is found in Real
+/// and then rounded, so that it keeps its digits however large the wall is.
 struct WallSample {
-  Vec3 position;
-  WallField field;
+  static constexpr int kFields = 3;  // depth, from_base, from_top of WallField
+
+  LocalVec3 position;
+  LocalReal field[kFields];
+
+  TALUS_HD LocalReal depth() const { return field[0]; }
 };
+TALUS_HD inline WallSample wall_sample(const Vec3& relative, const WallField& field) {
+  return {rounded(relative), {rounded(field.depth), rounded(field.from_base), rounded(field.from_top)}};
+}
 
 /// Integrals of a wall's depth over the part of a body's surface inside the wall (all faces of its parts, see
 /// DepthIntegrals), world frame about `centre`:
@@ -43,14 +51,14 @@ struct WallIntegralsOf {
     constexpr int kMaxCorners = 6;  // a triangle cut by three fields
     WallSample buffer[2][kMaxCorners] = {{a, b, c}};
     int count = 3, current = 0;
-    for (int field = 0; field < 3 && count >= 3; ++field) {
+    for (int field = 0; field < WallSample::kFields && count >= 3; ++field) {
       const WallSample* from = buffer[current];
       WallSample* to = buffer[1 - current];
       int kept = 0;
       for (int i = 0; i < count; ++i) {
         const WallSample& here = from[i];
         const WallSample& next = from[(i + 1) % count];
-        const Real here_value = value(here, field), next_value = value(next, field);
+        const LocalReal here_value = here.field[field], next_value = next.field[field];
         if (here_value >= 0) to[kept++] = here;
         if ((here_value > 0 && next_value < 0) || (here_value < 0 && next_value > 0))
           to[kept++] = between(here, next, here_value / (here_value - next_value));
@@ -63,18 +71,21 @@ struct WallIntegralsOf {
   }
 
   /// A polygon in the wall's depth below one plane, in the axes and about the point that the sums are in.
-  TALUS_HD void add_polygon(const Polygon& polygon, const HalfSpace& plane, const Vec3& normal, bool is_outer) {
+  TALUS_HD void add_polygon(const Polygon& polygon, const LocalHalfSpace& plane, const Vec3& normal, bool is_outer) {
     std::conditional_t<kHasPatch, PolygonPatchDepthOf<Profile>, PolygonDepthOf<Profile>> sum;
     sum.profile = profile;
-    add_linear_depth(polygon, plane, normal, sum);
-    force -= sum.depth * normal;
-    moment -= cross(sum.depth_moment, normal);
-    area += sum.area * normal;
+    sum.origin = MomentOrigin::at(polygon.corner[0]);
+    add_linear_depth(polygon, plane, rounded(normal), sum);
+    const Real depth = sum.depth;
+    const Vec3 depth_moment = sum.central_moment();
+    force -= depth * normal;
+    moment -= cross(depth_moment, normal);
+    area += Real(sum.area) * normal;
     if (!is_outer) return;
-    weight += sum.depth;
-    weighted_point += sum.depth_moment;
-    largest_depth = std::max(largest_depth, sum.largest);
-    if constexpr (kHasPatch) patch.add(sum.depth, normal, plane.normal, sum.second_moment);
+    weight += depth;
+    weighted_point += depth_moment;
+    largest_depth = std::max(largest_depth, Real(sum.largest));
+    if constexpr (kHasPatch) patch.add(depth, normal, plane.normal, sum.central_second_moment());
   }
 
   /// The same sums in axes turned by `rotation`.
@@ -104,30 +115,33 @@ struct WallIntegralsOf {
   }
 
  private:
-  TALUS_HD static Real value(const WallSample& sample, int field) {
-    return field == 0 ? sample.field.depth : field == 1 ? sample.field.from_base : sample.field.from_top;
-  }
-  TALUS_HD static WallSample between(const WallSample& a, const WallSample& b, Real t) {
-    const auto mix = [&](Real x, Real y) { return x + t * (y - x); };
-    return {a.position + t * (b.position - a.position),
-            {mix(a.field.depth, b.field.depth), mix(a.field.from_base, b.field.from_base),
-             mix(a.field.from_top, b.field.from_top)}};
+  TALUS_HD static WallSample between(const WallSample& a, const WallSample& b, LocalReal t) {
+    const auto mix = [&](int i) { return a.field[i] + t * (b.field[i] - a.field[i]); };
+    return {a.position + t * (b.position - a.position), {mix(0), mix(1), mix(2)}};
   }
   TALUS_HD void add_linear(const WallSample& a, const WallSample& b, const WallSample& c, const Vec3& normal,
                            bool is_outer) {
-    const Real triangle = Real(0.5) * dot(cross(b.position - a.position, c.position - a.position), normal);
-    const Real da = a.field.depth, db = b.field.depth, dc = c.field.depth;
-    const DepthTriangle piece{a.position, b.position, c.position, da, db, dc, triangle};
-    const auto [depth, depth_moment, stiff_area] = profile.integrate(piece);
+    const MomentOrigin origin = MomentOrigin::at(a.position);
+    const LocalReal triangle =
+        LocalReal(0.5) * dot(cross(b.position - a.position, c.position - a.position), rounded(normal));
+    const DepthTriangle piece{
+        origin.to(a.position), origin.to(b.position), origin.to(c.position), a.depth(), b.depth(), c.depth(), triangle};
+    const TriangleIntegrals integrals = profile.integrate(piece);
+    const Real depth = integrals.depth;
+    const Vec3 depth_moment = origin.first_about_centre(integrals.depth_moment, integrals.depth);
     force -= depth * normal;
     moment -= cross(depth_moment, normal);
-    area += stiff_area * normal;
+    area += Real(integrals.area) * normal;
     if (!is_outer) return;
     weight += depth;
     weighted_point += depth_moment;
-    largest_depth = std::max(largest_depth, std::max(da, std::max(db, dc)));
-    if constexpr (kHasPatch)
-      if (depth > 0) patch.add(depth, normal, patch.wall_normal_at(depth_moment / depth), profile.second_moment(piece));
+    largest_depth = std::max(largest_depth, Real(std::max(a.depth(), std::max(b.depth(), c.depth()))));
+    if constexpr (kHasPatch) {
+      if (!(depth > 0)) return;
+      const LocalReal second = profile.second_moment(piece);
+      patch.add(depth, normal, patch.wall_normal_at(depth_moment / depth),
+                origin.second_about_centre(second, integrals.depth_moment, integrals.depth));
+    }
   }
 };
 
@@ -182,13 +196,13 @@ TALUS_HD void integrate_part_in_wall(const PartView& part, const Pose& pose, con
   const Real radius = pose.scale * part.range.radius;
   if (wall_field(wall, centre).depth + radius <= 0) return;
   const auto sample = [&](const Vec3& relative) {
-    return WallSample{relative, wall_field(wall, pose.position + relative)};
+    return wall_sample(relative, wall_field(wall, pose.position + relative));
   };
   ScratchArray<WallSample, kMaxPartVertices> vertices;
   bool touches = false;
   for (int v = 0; v < part.range.vertex_count; ++v) {
     vertices[v] = sample(pose.scale * (pose.rotation * part.vertices[v]));
-    touches |= vertices[v].field.depth > 0;
+    touches |= vertices[v].depth() > 0;
   }
   if (!touches) return;
   const bool is_curved = wall.kind != WallKind::plane;
@@ -198,7 +212,7 @@ TALUS_HD void integrate_part_in_wall(const PartView& part, const Pose& pose, con
     const FaceCorners face = part.faces[f];
     const std::uint8_t* corner = part.corners + face.first;
     bool face_touches = false;
-    for (int c = 0; c < face.count; ++c) face_touches |= vertices[corner[c]].field.depth > 0;
+    for (int c = 0; c < face.count; ++c) face_touches |= vertices[corner[c]].depth() > 0;
     if (!face_touches) continue;
     const Vec3 normal = pose.rotation * part.planes[f].normal;
     for (int c = 2; c < face.count; ++c) {
@@ -221,12 +235,12 @@ TALUS_HD bool integrate_part_outside(const PartView& part, const Pose& pose, con
   const Real radius = pose.scale * part.range.radius;
   if (wall_field(wall, centre).depth + radius <= 0) return true;
   const auto sample = [&](const Vec3& relative) {
-    return WallSample{relative, wall_field(wall, pose.position + relative)};
+    return wall_sample(relative, wall_field(wall, pose.position + relative));
   };
   const Vec3 point = wall.point - pose.position;
   Polygon buffer[2];
   for (int f = 0; f < part.range.face_count; ++f) {
-    const HalfSpace plane{pose.rotation * part.planes[f].normal, pose.scale * part.planes[f].offset};
+    const HalfSpace plane{pose.rotation * Vec3(part.planes[f].normal), pose.scale * part.planes[f].offset};
     const CurvedWindow window =
         wall.kind == WallKind::sphere ? ball_window(wall, point, plane) : shaft_window(wall, point, plane);
     if (window.is_empty) continue;
@@ -235,7 +249,7 @@ TALUS_HD bool integrate_part_outside(const PartView& part, const Pose& pose, con
     buffer[0].count = face.count;
     buffer[0].is_truncated = false;
     for (int c = 0; c < face.count; ++c)
-      buffer[0].corner[c] = pose.scale * (pose.rotation * part.vertices[part.corners[face.first + c]]);
+      buffer[0].corner[c] = rounded(pose.scale * (pose.rotation * part.vertices[part.corners[face.first + c]]));
     for (int side = 0; side < window.count; ++side, current = 1 - current)
       clip(buffer[current], window.side[side], buffer[1 - current]);
     const Polygon& polygon = buffer[current];
