@@ -119,8 +119,10 @@ struct DepthIntegralsOf {
     // A sharp corner's own field climbs slowly; below this the quotient says nothing.
     constexpr Real kLeastSteepness = Real(0.25);
     const Real a = field_a.steepness(n), b = field_b.steepness(n);
-    return a >= b ? field_a.largest_depth / std::max(a, kLeastSteepness)
-                  : field_b.largest_depth / std::max(b, kLeastSteepness);
+    // Of a body within the other, flush with one of its faces, nothing lies below the other's surface.
+    const bool takes_a = field_b.largest_depth > 0 ? field_a.largest_depth > 0 && a >= b : true;
+    return takes_a ? field_a.largest_depth / std::max(a, kLeastSteepness)
+                   : field_b.largest_depth / std::max(b, kLeastSteepness);
   }
 
  private:

@@ -20,4 +20,11 @@ struct SingleRounding {
 };
 inline constexpr SingleRounding kSingle = kIsMixed ? SingleRounding{2e-7, 2e-6, 1e-4, 2e-4} : SingleRounding{};
 
+/// Integrals of pairs of bodies against a reference. Up to kConditioned between relative changes of input and result
+/// the result is compared as it stands; rounding the input to 1e-16 (single: 6e-8) alone then costs 1e-12 (6e-6).
+/// Beyond, the error allowed grows with the factor.
+inline constexpr double kConditioned = kIsMixed ? 1e2 : 1e4;
+/// Error over the exact value: some ten such roundings.
+inline constexpr double kPairGoal = kIsMixed ? 1e-4 : 1e-10;
+
 }  // namespace test_support

@@ -86,7 +86,8 @@ void expect_right(const PolyhedralLaw& law, double hardening) {
     std::printf("  %-24s %6d pairs, %6d compared: force %.1e, torque %.1e, balance %.1e\n", kind.name.c_str(), count,
                 worst.compared, worst.force, worst.torque, worst.balance);
     EXPECT_LT(std::max({worst.force, worst.torque, worst.balance}), test_support::kPairGoal) << kind.name;
-    EXPECT_GT(worst.compared, 0) << kind.name;
+    // The depth is zero all over coincident bodies' surfaces.
+    EXPECT_TRUE(worst.compared > 0 || kind.name == "coincident") << kind.name;
   }
 }
 
