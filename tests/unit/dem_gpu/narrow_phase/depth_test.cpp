@@ -168,9 +168,9 @@ TEST(HardeningProfile, IntegralsOverATriangleAreExact) {
       moment += (weight * d * (1 + rate * d)) * (a * Vec3(t.a) + b * Vec3(t.b) + c * Vec3(t.c));
       area += weight * (1 + 2 * rate * d);
     }
-  const auto found = dem_gpu::HardeningProfile{rounded(rate)}.integrate(triangle);
+  const auto found = dem_gpu::HardeningProfile{dem_gpu::rounded(rate)}.integrate(triangle);
   EXPECT_NEAR(found.depth, depth, 1e-14 + kSingle.integral);
-  EXPECT_NEAR(norm(Vec3(found.depth_moment) - moment), 0, 1e-14 + kSingle.integral);
+  EXPECT_NEAR(dem_gpu::norm(Vec3(found.depth_moment) - moment), 0, 1e-14 + kSingle.integral);
   EXPECT_NEAR(found.area, area, 1e-14 + kSingle.integral);
 }
 
