@@ -29,8 +29,9 @@ TALUS_HD inline Scalar depth_below(const BasicHalfSpace<Scalar>& plane,
   return plane.offset - dot(plane.normal, x);
 }
 
-template <class Scalar>
-TALUS_HD inline LocalHalfSpace rounded(const BasicHalfSpace<Scalar>& plane) {
+TALUS_HD inline const LocalHalfSpace& rounded(const LocalHalfSpace& plane) { return plane; }
+template <class Wide>
+requires(sizeof(Wide) > sizeof(LocalReal)) TALUS_HD inline LocalHalfSpace rounded(const BasicHalfSpace<Wide>& plane) {
   return {rounded(plane.normal), static_cast<LocalReal>(plane.offset)};
 }
 

@@ -15,16 +15,9 @@ namespace dem_gpu {
 /// Corner of a triangle with the wall's field there, position relative to the body's centre. The field is found in Real
 /// and then rounded, so that it keeps its digits however large the wall is.
 struct WallSample {
-  static constexpr int kFields = 3;  // depth, from_base, from_top of WallField
-
   LocalVec3 position;
-  LocalReal field[kFields];
-
-  TALUS_HD LocalReal depth() const { return field[0]; }
+  LocalWallField field;
 };
-TALUS_HD inline WallSample wall_sample(const Vec3& relative, const WallField& field) {
-  return {rounded(relative), {rounded(field.depth), rounded(field.from_base), rounded(field.from_top)}};
-}
 
 /// Integrals of a wall's depth over the part of a body's surface inside the wall (all faces of its parts, see
 /// DepthIntegrals), world frame about `centre`:
@@ -51,14 +44,14 @@ struct WallIntegralsOf {
     constexpr int kMaxCorners = 6;  // a triangle cut by three fields
     WallSample buffer[2][kMaxCorners] = {{a, b, c}};
     int count = 3, current = 0;
-    for (int field = 0; field < WallSample::kFields && count >= 3; ++field) {
+    for (int field = 0; field < 3 && count >= 3; ++field) {
       const WallSample* from = buffer[current];
       WallSample* to = buffer[1 - current];
       int kept = 0;
       for (int i = 0; i < count; ++i) {
         const WallSample& here = from[i];
         const WallSample& next = from[(i + 1) % count];
-        const LocalReal here_value = here.field[field], next_value = next.field[field];
+        const LocalReal here_value = value(here, field), next_value = value(next, field);
         if (here_value >= 0) to[kept++] = here;
         if ((here_value > 0 && next_value < 0) || (here_value < 0 && next_value > 0))
           to[kept++] = between(here, next, here_value / (here_value - next_value));
@@ -115,17 +108,23 @@ struct WallIntegralsOf {
   }
 
  private:
+  TALUS_HD static LocalReal value(const WallSample& sample, int field) {
+    return field == 0 ? sample.field.depth : field == 1 ? sample.field.from_base : sample.field.from_top;
+  }
   TALUS_HD static WallSample between(const WallSample& a, const WallSample& b, LocalReal t) {
-    const auto mix = [&](int i) { return a.field[i] + t * (b.field[i] - a.field[i]); };
-    return {a.position + t * (b.position - a.position), {mix(0), mix(1), mix(2)}};
+    const auto mix = [&](LocalReal x, LocalReal y) { return x + t * (y - x); };
+    return {a.position + t * (b.position - a.position),
+            {mix(a.field.depth, b.field.depth), mix(a.field.from_base, b.field.from_base),
+             mix(a.field.from_top, b.field.from_top)}};
   }
   TALUS_HD void add_linear(const WallSample& a, const WallSample& b, const WallSample& c, const Vec3& normal,
                            bool is_outer) {
     const MomentOrigin origin = MomentOrigin::at(a.position);
     const LocalReal triangle =
         LocalReal(0.5) * dot(cross(b.position - a.position, c.position - a.position), rounded(normal));
+    const LocalReal da = a.field.depth, db = b.field.depth, dc = c.field.depth;
     const DepthTriangle piece{
-        origin.to(a.position), origin.to(b.position), origin.to(c.position), a.depth(), b.depth(), c.depth(), triangle};
+        origin.to(a.position), origin.to(b.position), origin.to(c.position), da, db, dc, triangle};
     const TriangleIntegrals integrals = profile.integrate(piece);
     const Real depth = integrals.depth;
     const Vec3 depth_moment = origin.first_about_centre(integrals.depth_moment, integrals.depth);
@@ -135,7 +134,7 @@ struct WallIntegralsOf {
     if (!is_outer) return;
     weight += depth;
     weighted_point += depth_moment;
-    largest_depth = std::max(largest_depth, Real(std::max(a.depth(), std::max(b.depth(), c.depth()))));
+    largest_depth = std::max(largest_depth, Real(std::max(da, std::max(db, dc))));
     if constexpr (kHasPatch) {
       if (!(depth > 0)) return;
       const LocalReal second = profile.second_moment(piece);
@@ -196,13 +195,13 @@ TALUS_HD void integrate_part_in_wall(const PartView& part, const Pose& pose, con
   const Real radius = pose.scale * part.range.radius;
   if (wall_field(wall, centre).depth + radius <= 0) return;
   const auto sample = [&](const Vec3& relative) {
-    return wall_sample(relative, wall_field(wall, pose.position + relative));
+    return WallSample{rounded(relative), rounded(wall_field(wall, pose.position + relative))};
   };
   ScratchArray<WallSample, kMaxPartVertices> vertices;
   bool touches = false;
   for (int v = 0; v < part.range.vertex_count; ++v) {
     vertices[v] = sample(pose.scale * (pose.rotation * part.vertices[v]));
-    touches |= vertices[v].depth() > 0;
+    touches |= vertices[v].field.depth > 0;
   }
   if (!touches) return;
   const bool is_curved = wall.kind != WallKind::plane;
@@ -212,7 +211,7 @@ TALUS_HD void integrate_part_in_wall(const PartView& part, const Pose& pose, con
     const FaceCorners face = part.faces[f];
     const std::uint8_t* corner = part.corners + face.first;
     bool face_touches = false;
-    for (int c = 0; c < face.count; ++c) face_touches |= vertices[corner[c]].depth() > 0;
+    for (int c = 0; c < face.count; ++c) face_touches |= vertices[corner[c]].field.depth > 0;
     if (!face_touches) continue;
     const Vec3 normal = pose.rotation * part.planes[f].normal;
     for (int c = 2; c < face.count; ++c) {
@@ -235,7 +234,7 @@ TALUS_HD bool integrate_part_outside(const PartView& part, const Pose& pose, con
   const Real radius = pose.scale * part.range.radius;
   if (wall_field(wall, centre).depth + radius <= 0) return true;
   const auto sample = [&](const Vec3& relative) {
-    return wall_sample(relative, wall_field(wall, pose.position + relative));
+    return WallSample{rounded(relative), rounded(wall_field(wall, pose.position + relative))};
   };
   const Vec3 point = wall.point - pose.position;
   Polygon buffer[2];

@@ -8,11 +8,19 @@
 namespace dem_gpu {
 
 /// Where a point stands against an analytic wall. The wall's solid is where all three are >= 0.
-struct WallField {
-  Real depth = 0;      // below the surface [m]; 1-Lipschitz
-  Real from_base = 1;  // inside the wall's extent [m]
-  Real from_top = 1;
+template <class Scalar>
+struct BasicWallField {
+  Scalar depth = 0;      // below the surface [m]; 1-Lipschitz
+  Scalar from_base = 1;  // inside the wall's extent [m]
+  Scalar from_top = 1;
 };
+using WallField = BasicWallField<Real>;
+using LocalWallField = BasicWallField<LocalReal>;
+TALUS_HD inline const LocalWallField& rounded(const LocalWallField& field) { return field; }
+template <class Wide>
+requires(sizeof(Wide) > sizeof(LocalReal)) TALUS_HD inline LocalWallField rounded(const BasicWallField<Wide>& field) {
+  return {rounded(field.depth), rounded(field.from_base), rounded(field.from_top)};
+}
 
 /// Cylindrical coordinates about the wall's axis.
 struct AxialPosition {
