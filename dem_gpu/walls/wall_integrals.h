@@ -12,8 +12,7 @@
 
 namespace dem_gpu {
 
-/// Corner of a triangle with the wall's field there, position relative to the body's centre. The field is found in Real
-/// and then rounded, so that it keeps its digits however large the wall is.
+/// Corner of a triangle with the wall's field there, position relative to the body's centre.
 struct WallSample {
   LocalVec3 position;
   LocalWallField field;
@@ -195,7 +194,7 @@ TALUS_HD void integrate_part_in_wall(const PartView& part, const Pose& pose, con
   const Real radius = pose.scale * part.range.radius;
   if (wall_field(wall, centre).depth + radius <= 0) return;
   const auto sample = [&](const Vec3& relative) {
-    return WallSample{rounded(relative), rounded(wall_field(wall, pose.position + relative))};
+    return WallSample{rounded(relative), local_wall_field(wall, pose.position + relative)};
   };
   ScratchArray<WallSample, kMaxPartVertices> vertices;
   bool touches = false;
@@ -234,7 +233,7 @@ TALUS_HD bool integrate_part_outside(const PartView& part, const Pose& pose, con
   const Real radius = pose.scale * part.range.radius;
   if (wall_field(wall, centre).depth + radius <= 0) return true;
   const auto sample = [&](const Vec3& relative) {
-    return WallSample{rounded(relative), rounded(wall_field(wall, pose.position + relative))};
+    return WallSample{rounded(relative), local_wall_field(wall, pose.position + relative)};
   };
   const Vec3 point = wall.point - pose.position;
   Polygon buffer[2];

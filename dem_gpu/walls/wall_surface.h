@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 
 #include "dem_gpu/walls/wall_columns.h"
 
@@ -16,11 +17,6 @@ struct BasicWallField {
 };
 using WallField = BasicWallField<Real>;
 using LocalWallField = BasicWallField<LocalReal>;
-TALUS_HD inline const LocalWallField& rounded(const LocalWallField& field) { return field; }
-template <class Wide>
-requires(sizeof(Wide) > sizeof(LocalReal)) TALUS_HD inline LocalWallField rounded(const BasicWallField<Wide>& field) {
-  return {rounded(field.depth), rounded(field.from_base), rounded(field.from_top)};
-}
 
 /// Cylindrical coordinates about the wall's axis.
 struct AxialPosition {
@@ -54,6 +50,16 @@ TALUS_HD inline WallField wall_field(const WallRecord& wall, const Vec3& x) {
   const Real gap = position.radius - (wall.base_radius + slope * position.along);
   const Real depth = (wall.solid_within ? -gap : gap) / std::sqrt(1 + slope * slope);
   return {depth, position.along, wall.length - position.along};
+}
+
+/// The same to the precision of contact geometry: found in Real, so that it keeps its digits however large the wall is.
+TALUS_HD inline LocalWallField local_wall_field(const WallRecord& wall, const Vec3& x) {
+  if constexpr (std::is_same_v<WallField, LocalWallField>) {
+    return wall_field(wall, x);
+  } else {
+    const WallField field = wall_field(wall, x);
+    return {rounded(field.depth), rounded(field.from_base), rounded(field.from_top)};
+  }
 }
 
 /// Normal of a wall's surface nearest to x, from the wall to the bodies.
