@@ -11,6 +11,7 @@
 
 #include "catalog/input_error.h"
 #include "workflows/run_progress.h"
+#include "workflows/run_promises.h"
 #include "workflows/run_reports.h"
 #include "workflows/series_files.h"
 

@@ -8,7 +8,9 @@
 
 #include "catalog/input_error.h"
 #include "workflows/atomic_file.h"
+#include "workflows/resolved_scene.h"
 #include "workflows/run_loop.h"
+#include "workflows/run_promises.h"
 #include "workflows/run_reports.h"
 #include "workflows/stage_tool.h"
 #include "workflows/thread_count.h"

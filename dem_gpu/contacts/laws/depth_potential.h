@@ -13,8 +13,9 @@ namespace dem_gpu {
 struct DepthPotential {
   Real stiffness = 0;  // k [N/m3]
   /// Depth beyond which the field stays constant / equivalent diameter of the body [-]. The force saturates there: at
-  /// k A cap a field. The default is five times the 3 % that a flat contact may sink in, and seldom reached by corners;
-  /// limbs thinner than twice the cap are limited by their other side first. Little cost hangs on it.
+  /// k A cap a field. Flat cubes feel the default from 19 % of their edge on, and it keeps 84 % of the energy that
+  /// holds them apart without a cap; caps of 0.02 to 0.25 cost the same, 0.5 a fifth more on a rough rock (bench laws,
+  /// cases cap-*).
   Real depth_cap = Real(0.15);
 
   /// Of two flat faces, at touch [N/m3].

@@ -13,7 +13,7 @@
 #include "catalog/mass_properties.h"
 #include "tests/support/scene_text.h"
 #include "tests/support/temporary_folder.h"
-#include "workflows/run_reports.h"
+#include "workflows/run_promises.h"
 #include "workflows/scene_assembly.h"
 
 namespace workflows {

@@ -3,9 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <ostream>
 
 #include "tests/support/threads.h"
 #include "tests/validation/hard_cases/hard_case.h"
+
+namespace hard_cases {
+
+/// What GoogleTest calls a case in its messages and CTest in its list.
+void PrintTo(const HardCase& one, std::ostream* out) { *out << one.name; }
+
+}  // namespace hard_cases
 
 namespace {
 
