@@ -59,8 +59,9 @@ void compare(const Pair& pair, const PolyhedralLaw& law, double hardening, Error
   const ProbeContact swapped = OverlapProbe(b.shape, a.shape, law).contact({pair.poses.b, pair.poses.a});
   const double sum = norm(found.force) + norm(found.torque_a) + norm(found.point) + found.depth + found.stiffness;
   ASSERT_TRUE(std::isfinite(sum));
-  // Thinner than the engine tells from touching.
-  if (exact.weight <= 2 * dem_gpu::kCoplanarity * size * exact.slope) return;
+  // Thinner or narrower than the engine tells from touching.
+  const double tolerance = dem_gpu::kCoplanarity * size;
+  if (exact.weight <= 2 * tolerance * exact.slope || exact.slope <= 2 * tolerance * size) return;
   ++worst.compared;
   const double scale = std::max(exact.weight, size * exact.slope / test_support::kConditioned);
   worst.force = std::max(worst.force, norm(found.force - exact.force) / scale);

@@ -80,8 +80,10 @@ void compare(const Pair& pair, Errors& worst) {
   // Thinner than the engine tells from touching: whether it and its faces count is a convention.
   const bool is_touching = exact.volume <= 2 * tolerance * exact.surface;
   // Nothing overlaps, or so little that the rounding of the input makes it anew.
+  // In single precision the rounding of the input makes all of these anew.
+  const bool is_made_anew = test_support::kIsMixed && is_touching;
   const double volume_scale =
-      exact.volume > 0 ? std::max(exact.volume_scale(size), kSmallest * size * size * size) : smaller;
+      exact.volume > 0 && !is_made_anew ? std::max(exact.volume_scale(size), kSmallest * size * size * size) : smaller;
   const double error = std::abs(ab.volume - exact.volume);
   const auto raise = [](double& value, double to) { value = std::max(value, to); };
   ++worst.pairs;
