@@ -53,12 +53,14 @@ TALUS_HD inline WallField wall_field(const WallRecord& wall, const Vec3& x) {
 }
 
 /// The same to the precision of contact geometry: found in Real, so that it keeps its digits however large the wall is.
-TALUS_HD inline LocalWallField local_wall_field(const WallRecord& wall, const Vec3& x) {
-  if constexpr (std::is_same_v<WallField, LocalWallField>) {
+template <class Scalar = LocalReal>
+TALUS_HD inline BasicWallField<Scalar> local_wall_field(const WallRecord& wall, const Vec3& x) {
+  if constexpr (std::is_same_v<Scalar, Real>) {
     return wall_field(wall, x);
   } else {
     const WallField field = wall_field(wall, x);
-    return {rounded(field.depth), rounded(field.from_base), rounded(field.from_top)};
+    return {static_cast<Scalar>(field.depth), static_cast<Scalar>(field.from_base),
+            static_cast<Scalar>(field.from_top)};
   }
 }
 
