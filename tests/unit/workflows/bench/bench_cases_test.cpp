@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <set>
 
 #include "catalog/input_error.h"
@@ -71,7 +72,7 @@ TEST(BenchCases, ContactTimeConvergesWithSecondOrderOrBetter) {
     const double order = std::log2(coarse / fine) / 2;
     EXPECT_GT(order, 1.9) << impact;
     if (impact == "cube-face") {
-      EXPECT_LT(order, 2.1 + test_support::kSingle.touch / fine);
+      EXPECT_LT(order, 2.1 + test_support::kSingle.touch / (2 * std::numbers::ln2 * fine));
     }
   }
 }
