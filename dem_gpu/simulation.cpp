@@ -208,6 +208,7 @@ struct Simulation::Engine {
               true,
               {}},
         passes(build_step(scene)) {
+    if (model.features.has_spheres) state.walls.weld(welded_walls(scene));
     Accounts& accounts = state.accounts;
     accounts.loss_normal.assign(model.classes.size(), 0);
     accounts.loss_shear.assign(model.classes.size(), 0);

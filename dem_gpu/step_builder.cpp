@@ -6,6 +6,7 @@
 #include "dem_gpu/broad_phase/neighbour_list.h"
 #include "dem_gpu/contacts/contact_passes.h"
 #include "dem_gpu/motion/motion_passes.h"
+#include "dem_gpu/walls/hidden_faces.h"
 #include "dem_gpu/walls/wall_motion.h"
 
 namespace dem_gpu {
@@ -20,6 +21,11 @@ bool is_object(const Wall& wall) { return std::holds_alternative<VolumeObject>(w
 bool is_mesh(const Wall& wall) { return std::holds_alternative<MeshObject>(wall.geometry); }
 
 bool is_analytic(const Wall& wall) { return !is_object(wall) && !is_mesh(wall); }
+
+bool has_seams(const Scene& scene) {
+  const auto welds = welded_walls(scene);
+  return std::any_of(welds.begin(), welds.end(), [](const auto& list) { return !list.empty(); });
+}
 
 bool moves(const Wall& wall) { return wall.removed_at || is_moving(wall.motion); }
 
@@ -44,6 +50,7 @@ std::vector<std::unique_ptr<Pass>> build_step(const Scene& scene) {
   add(polyhedron_count > 0 && has_walls, make_polyhedron_wall_contacts_pass, scene);
   add(polyhedron_count > 0 && has_objects, make_polyhedron_object_contacts_pass, scene);
   add(polyhedron_count > 0 && has_meshes, make_polyhedron_mesh_contacts_pass, scene);
+  add(sphere_count > 0 && has_objects && has_seams(scene), make_seam_crossings_pass);
   add(sphere_count > 1, make_sphere_contacts_pass, scene);
   add(sphere_count > 0 && polyhedron_count > 0, make_sphere_polyhedron_contacts_pass, scene);
   add(sphere_count > 0 && has_walls, make_sphere_wall_contacts_pass, scene);

@@ -117,31 +117,11 @@ struct CarryHistory {
   TALUS_HD void operator()(int c) const {
     const int old = lower_bound(from.key, from_count, to.key[c]);
     if (old == from_count || from.key[old] != to.key[c]) return;
-    to.force[c] = from.force[old];
-    to.torque_a[c] = from.torque_a[old];
-    to.torque_b[c] = from.torque_b[old];
-    to.point[c] = from.point[old];
-    to.depth[c] = from.depth[old];
+    visit_history(features, [&](auto column) { (to.*column)[c] = (from.*column)[old]; });
     to.is_truncated[c] = from.is_truncated[old];
-    if (features.has_polyhedra) {
-      const int length = to.cache_begin[c + 1] - to.cache_begin[c];
-      for (int k = 0; k < length; ++k)
-        to.separating[to.cache_begin[c] + k] = from.separating[from.cache_begin[old] + k];
-    }
-    if (features.has_spheres) to.owed_kick[c] = from.owed_kick[old];
-    if (features.has_friction) to.tangential_displacement[c] = from.tangential_displacement[old];
-    if (features.has_friction_couples) to.turning_displacement[c] = from.turning_displacement[old];
-    if (features.has_friction && features.has_polyhedra) to.spring_normal[c] = from.spring_normal[old];
-    if (features.has_ledger) {
-      to.elastic_work[c] = from.elastic_work[old];
-      to.tangential_energy[c] = from.tangential_energy[old];
-      to.last_elastic_force[c] = from.last_elastic_force[old];
-      to.last_elastic_torque_a[c] = from.last_elastic_torque_a[old];
-      to.last_elastic_torque_b[c] = from.last_elastic_torque_b[old];
-      to.last_damping_force[c] = from.last_damping_force[old];
-      to.last_friction_force[c] = from.last_friction_force[old];
-      if (features.has_friction_couples) to.last_friction_couple[c] = from.last_friction_couple[old];
-    }
+    if (!features.has_polyhedra) return;
+    const int length = to.cache_begin[c + 1] - to.cache_begin[c];
+    for (int k = 0; k < length; ++k) to.separating[to.cache_begin[c] + k] = from.separating[from.cache_begin[old] + k];
   }
 };
 

@@ -128,6 +128,29 @@ struct ContactFeatures {
   bool has_meshes = false;
 };
 
+/// Calls visitor(&ContactView::column) for each column that a contact in touch carries from step to step.
+template <class Visitor>
+TALUS_HD void visit_history(const ContactFeatures& features, Visitor&& visitor) {
+  visitor(&ContactView::force);
+  visitor(&ContactView::torque_a);
+  visitor(&ContactView::torque_b);
+  visitor(&ContactView::point);
+  visitor(&ContactView::depth);
+  if (features.has_spheres) visitor(&ContactView::owed_kick);
+  if (features.has_friction) visitor(&ContactView::tangential_displacement);
+  if (features.has_friction_couples) visitor(&ContactView::turning_displacement);
+  if (features.has_friction && features.has_polyhedra) visitor(&ContactView::spring_normal);
+  if (!features.has_ledger) return;
+  visitor(&ContactView::elastic_work);
+  visitor(&ContactView::tangential_energy);
+  visitor(&ContactView::last_elastic_force);
+  visitor(&ContactView::last_elastic_torque_a);
+  visitor(&ContactView::last_elastic_torque_b);
+  visitor(&ContactView::last_damping_force);
+  visitor(&ContactView::last_friction_force);
+  if (features.has_friction_couples) visitor(&ContactView::last_friction_couple);
+}
+
 /// All columns for `count` contacts, zero.
 void resize_columns(ContactColumns& columns, int count, const ContactFeatures& features);
 

@@ -24,6 +24,7 @@ struct ContactScene {
   ShapeView shapes;
   MeshView meshes;
   const WallRecord* walls;
+  const int* welds;
   const PairProperties* pairs;
   int material_count;
   Real time_step;  // [s]
@@ -39,8 +40,9 @@ struct ContactScene {
 inline ContactScene contact_scene(const Model& model, State& state) {
   return {view(state.contacts), view(model.bodies, state.bodies),
           view(model.shapes),   view(model.meshes),
-          state.walls.device(), pointer(model.pairs),
-          model.material_count, model.time_step};
+          state.walls.device(), state.walls.welds(),
+          pointer(model.pairs), model.material_count,
+          model.time_step};
 }
 
 /// What stands on side b of a contact.

@@ -19,4 +19,7 @@ std::unique_ptr<Pass> make_sphere_object_contacts_pass(const Scene& scene);     
 std::unique_ptr<Pass> make_polyhedron_mesh_contacts_pass(const Scene& scene);    // polyhedron_mesh
 std::unique_ptr<Pass> make_sphere_mesh_contacts_pass(const Scene& scene);        // sphere_mesh
 
+/// Before them: contacts of spheres that pass from a wall to one welded to it.
+std::unique_ptr<Pass> make_seam_crossings_pass();
+
 }  // namespace dem_gpu

@@ -81,6 +81,7 @@ struct PolyhedronGeometry {
     const int shape_a = scene.bodies.shape[a];
     auto integrals = empty_integrals<PatchSumsFor<Patch>>(
         law, smaller_diameter(scene.shapes, shape_a, shape_b, pose_a, pose_b), pose_a.scale, pose_b.scale);
+    if constexpr (Partner::kIsWall && !std::is_same_v<Law, OverlapVolume>) integrals.has_seams = true;
     const bool is_whole = integrate_bodies(scene.shapes, shape_a, shape_b, pose_a, pose_b,
                                            scene.contacts.separating + scene.contacts.cache_begin[c], integrals);
     if (!is_whole) scene.contacts.is_truncated[c] = 1;

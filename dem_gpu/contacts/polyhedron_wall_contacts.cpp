@@ -3,6 +3,7 @@
 #include "dem_gpu/contacts/contact_passes.h"
 #include "dem_gpu/contacts/wall_geometry.h"
 #include "dem_gpu/walls/disc_integrals.h"
+#include "dem_gpu/walls/round_integrals.h"
 
 namespace dem_gpu {
 namespace {
@@ -21,7 +22,6 @@ struct PolyhedronWallGeometry {
     if (wall_field(wall, pose.position).depth + scene.bodies.bounding_radius[a] <= 0) return false;
     const ShapeRange& shape = scene.shapes.shapes[scene.bodies.shape[a]];
     auto integrals = empty_wall_integrals<WallPatchSumsFor<Patch>>(law, pose.scale * shape.equivalent_diameter);
-    if constexpr (integrals.kHasPatch) integrals.patch.wall = &wall, integrals.patch.centre = pose.position;
     for (int p = 0; p < shape.part_count; ++p)
       if (!integrate_part(part_view(scene.shapes, shape.first_part + p), pose, wall, integrals))
         scene.contacts.is_truncated[c] = 1;
@@ -33,8 +33,8 @@ struct PolyhedronWallGeometry {
                                       Integrals& integrals) {
     if (wall.kind == WallKind::disc)
       return integrate_part_in_disc({part, {pose.rotation, {}, pose.scale}}, pose.position, wall, integrals);
-    if (wall.solid_within) return integrate_part_outside(part, pose, wall, integrals);
-    integrate_part_in_wall(part, pose, wall, integrals);
+    if (wall.kind != WallKind::plane) return integrate_part_on_round_wall(part, pose, wall, integrals);
+    integrate_part_in_plane(part, pose, wall, integrals);
     return true;
   }
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dem_gpu/contacts/contact_passes.h"
-#include "dem_gpu/contacts/sphere_geometry.h"
+#include "dem_gpu/contacts/welded_surface.h"
 
 namespace dem_gpu {
 namespace {
@@ -39,6 +39,8 @@ struct SphereWallGeometry {
     const Real radius = scene.bodies.bounding_radius[a];
     const SurfaceDistance surface = surface_distance(wall, scene.bodies.position[a]);
     if (surface.rim >= 0 && is_held_beside(scene, b, scene.bodies.position[a], surface)) return false;
+    if (-surface.depth >= radius) return false;
+    if (wall.weld_count > 0 && holder_of_contact(scene, b, scene.bodies.position[a], radius) >= 0) return false;
     return sphere_contact(law, scene.bodies.position[a], radius, {-surface.depth, surface.into_wall, radius},
                           scene.pair(scene.bodies.material[a], wall.material), elastic, patch);
   }

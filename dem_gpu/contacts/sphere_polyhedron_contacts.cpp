@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dem_gpu/contacts/contact_passes.h"
-#include "dem_gpu/contacts/sphere_geometry.h"
+#include "dem_gpu/contacts/welded_surface.h"
 
 namespace dem_gpu {
 namespace {
@@ -23,6 +23,8 @@ struct SpherePolyhedronGeometry {
       const WallRecord& wall = scene.walls[b];
       nearest = distance_to_body(scene.shapes, wall.shape, {rotation_matrix(wall.orientation), wall.point, 1}, centre,
                                  radius);
+      if (nearest.distance >= radius) return false;
+      if (wall.weld_count > 0 && holder_of_contact(scene, b, centre, radius) >= 0) return false;
       pair = &scene.pair(scene.bodies.material[a], wall.material);
     } else {
       const Real reach = radius + scene.bodies.bounding_radius[b];

@@ -29,6 +29,10 @@ struct DepthIntegralsOf {
   Real weight = 0;            // integral of psi dA over both surfaces [m3]
   Vec3 weighted_point;        // integral of x psi dA [m4]
   bool is_truncated = false;  // a piece of a polygon did not fit
+  /// b's inner faces are seams that wall b shares with others. Their part of the force, which the walls beyond balance,
+  /// does not turn the contact's normal: a damper would brake what slides over a seam.
+  bool has_seams = false;
+  Vec3 seam_force;  // [m3]
   Sums patch;
 
   /// How the force changes when the other body moves, from the fields of one body: tangent = integral of minus gradient
@@ -63,6 +67,7 @@ struct DepthIntegralsOf {
     is_truncated |= sum.is_truncated;
     const Vec3 depth_moment = sum.central_moment();
     add(sum.depth, depth_moment, normal, is_outer);
+    if (has_seams && !is_outer) seam_force += sum.depth * normal;
     field_a.add(sum.descent, sum.area * normal, normal, is_outer ? sum.largest : 0);
     if constexpr (kHasPatch)
       if (is_outer) patch.add(patch.side_b, sum.depth, sum.aligned, normal, depth_moment, sum.central_second_moment());
@@ -98,7 +103,8 @@ struct DepthIntegralsOf {
     contact.torque_a = (law.stiffness * cube * a.scale) * (a.rotation * moment);
     contact.point = a.position + a.rotation * ((a.scale / weight) * weighted_point);
     if (!set_normal(contact)) return false;
-    const Vec3 n = unit_or(force, {0, 0, 1});
+    const Vec3 n = unit_or(force - seam_force, {0, 0, 1});
+    if (seam_force != Vec3{}) contact.normal = -(a.rotation * n);
     contact.stiffness = law.stiffness * square * (field_a.along(n) + field_b.along(n));
     contact.depth = a.scale * depth_along(n);
     // Beyond the cap the force grows no more; the secant stands in for the tangent, which damping and friction divide

@@ -22,6 +22,8 @@ struct TriangleIntegrals {
 
 /// psi = depth.
 struct LinearProfile {
+  TALUS_HD Real value(Real depth) const { return depth; }
+  TALUS_HD Real slope(Real /*depth*/) const { return 1; }
   TALUS_HD TriangleIntegrals integrate(const DepthTriangle& t) const {
     const LocalReal total = t.depth_a + t.depth_b + t.depth_c;
     return {t.area * total / 3,
@@ -42,6 +44,8 @@ struct LinearProfile {
 struct HardeningProfile {
   LocalReal rate = 0;  // 1 / hardening depth [1/m]
 
+  TALUS_HD Real value(Real depth) const { return depth * (1 + rate * depth); }
+  TALUS_HD Real slope(Real depth) const { return 1 + 2 * rate * depth; }
   TALUS_HD TriangleIntegrals integrate(const DepthTriangle& t) const {
     TriangleIntegrals sum = LinearProfile{}.integrate(t);
     const LocalReal p = t.depth_a, q = t.depth_b, r = t.depth_c;

@@ -162,13 +162,14 @@ void refuse_fast_walls(const Model& model, const State& state) {
   const auto width = to_host(model.bodies.least_width);
   const auto thinnest = std::min_element(width.begin(), width.end());
   if (travel <= kTravelShare * *thinnest) return;
+  const auto body = thinnest - width.begin();
   char text[320];
   std::snprintf(text, sizeof text,
-                "walls: the fastest moves %.4g m in a step of %.4g s, more than a quarter of the least width of body "
-                "%td (%.4g m), so that it could pass through it; use a time step of at most %.3g s, or a slower motion",
-                double(travel), double(model.time_step), thinnest - width.begin(), double(*thinnest),
+                "moves up to %.4g m in a step of %.4g s, more than a quarter of the least width of body %td (%.4g m), "
+                "so that it could pass through it; use a time step of at most %.3g s, or a slower motion",
+                double(travel), double(model.time_step), body, double(*thinnest),
                 double(kTravelShare * *thinnest / travel * model.time_step));
-  throw catalog::InputError(text);
+  throw catalog::InputError("wall '" + model.scene.walls[state.walls.fastest(model.time_step)].name + "': " + text);
 }
 
 Real book_start_energy(const Model& model, State& state) {

@@ -44,7 +44,37 @@ bool is_hidden(const catalog::ConvexPart& part, const catalog::ConvexFace& face,
   return depth_in(wall, record, middle + 2 * kFlush * size * to_vec3(face.plane.normal)) > 0;
 }
 
+/// Some corner of the volume object `block` lies in or on a wall.
+bool has_corner_in(const VolumeObject& block, const Wall& wall, const WallRecord& record) {
+  Real size = 0;
+  for (const catalog::Point& vertex : block.part.vertices)
+    size = std::max(size, norm(to_vec3(vertex) - to_vec3(block.part.vertices[0])));
+  return std::any_of(block.part.vertices.begin(), block.part.vertices.end(), [&](const catalog::Point& vertex) {
+    return depth_in(wall, record, to_vec3(vertex)) >= -kFlush * size;
+  });
+}
+
+bool moves_with(const Wall& a, const Wall& b) { return a.motion == b.motion && a.removed_at == b.removed_at; }
+
 }  // namespace
+
+std::vector<std::vector<int>> welded_walls(const Scene& scene) {
+  const int count = static_cast<int>(scene.walls.size());
+  std::vector<std::vector<int>> welds(scene.walls.size());
+  const WallSet at_start(scene, static_cast<int>(scene.shapes.size()));
+  const auto stands_in = [&](int block, int wall) {
+    const auto* object = std::get_if<VolumeObject>(&scene.walls[block].geometry);
+    return object && has_corner_in(*object, scene.walls[wall], at_start.records()[wall]);
+  };
+  for (int a = 0; a < count; ++a)
+    for (int b = a + 1; b < count; ++b)
+      if (moves_with(scene.walls[a], scene.walls[b]) && (stands_in(a, b) || stands_in(b, a))) {
+        welds[a].push_back(b);
+        welds[b].push_back(a);
+      }
+  for (std::vector<int>& list : welds) std::sort(list.begin(), list.end());
+  return welds;
+}
 
 catalog::ConvexPart welded_part(const Scene& scene, std::size_t wall) {
   const Wall& own = scene.walls[wall];
@@ -52,7 +82,7 @@ catalog::ConvexPart welded_part(const Scene& scene, std::size_t wall) {
   const WallSet at_start(scene, static_cast<int>(scene.shapes.size()));
   for (std::size_t other = 0; other < scene.walls.size(); ++other) {
     const Wall& partner = scene.walls[other];
-    if (other == wall || !(partner.motion == own.motion) || partner.removed_at != own.removed_at) continue;
+    if (other == wall || !moves_with(partner, own)) continue;
     for (catalog::ConvexFace& face : part.faces)
       if (is_hidden(part, face, partner, at_start.records()[other])) face.kind = catalog::FaceKind::inner;
   }

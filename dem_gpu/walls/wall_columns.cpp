@@ -159,6 +159,17 @@ void WallSet::join_rims() {
     }
 }
 
+void WallSet::weld(const std::vector<std::vector<int>>& welds) {
+  std::vector<int> all;
+  for (std::size_t w = 0; w < welds.size(); ++w) {
+    now_[w].first_weld = static_cast<int>(all.size());
+    now_[w].weld_count = static_cast<int>(welds[w].size());
+    all.insert(all.end(), welds[w].begin(), welds[w].end());
+  }
+  assign(welds_, all);
+  assign(device_, now_);
+}
+
 Vec3 WallSet::translation(int wall) const {
   const Motion& motion = walls_[wall].motion;
   return motion.rotation_centre - rotate(rotation(wall), motion.rotation_centre) + place_at(motion, time_).shift;
@@ -202,10 +213,18 @@ Real WallSet::largest_displacement(Real from, Real to) const {
 }
 
 Real WallSet::largest_displacement(Real span) const {
-  Real largest = 0;
-  for (int w = 0; w < count(); ++w)
-    largest = std::max(largest, displacement(w, largest_travel(walls_[w].motion, span)));
-  return largest;
+  return count() > 0 ? bound_of_displacement(fastest(span), span) : Real(0);
+}
+
+int WallSet::fastest(Real span) const {
+  int fastest = 0;
+  for (int w = 1; w < count(); ++w)
+    if (bound_of_displacement(w, span) > bound_of_displacement(fastest, span)) fastest = w;
+  return fastest;
+}
+
+Real WallSet::bound_of_displacement(int wall, Real span) const {
+  return displacement(wall, largest_travel(walls_[wall].motion, span));
 }
 
 bool WallSet::has_moving_walls() const {

@@ -4,22 +4,16 @@
 #include <type_traits>
 
 #include "dem_gpu/narrow_phase/patch_sums.h"
-#include "dem_gpu/walls/wall_surface.h"
 
 namespace dem_gpu {
 
 /// What friction needs of the surface inside a wall, world frame about the body's centre. The wall is the flat side:
 /// its normals are the patch's, each with the load that the body's surface presses along it.
 struct WallPatchSums {
-  const WallRecord* wall = nullptr;  // analytic walls
-  Vec3 centre;                       // of the body, world frame [m]
-  Mat3 tensor{{}, {}, {}};           // sum of load n n^T, loads that pull left out
-  Real pressed = 0;                  // sum of the same loads
-  Real load = 0;                     // sum of all loads: integral of depth dA along the wall's normal
-  Real second_moment = 0;            // integral of depth |x|^2 dA
-
-  /// Of an analytic wall next to a point of the contact.
-  TALUS_HD Vec3 wall_normal_at(const Vec3& point) const { return wall_normal(*wall, centre + point); }
+  Mat3 tensor{{}, {}, {}};  // sum of load n n^T, loads that pull left out
+  Real pressed = 0;         // sum of the same loads
+  Real load = 0;            // sum of all loads: integral of depth dA along the wall's normal
+  Real second_moment = 0;   // integral of depth |x|^2 dA
 
   /// A piece of the body's surface with its depth integral and its outward normal, the wall's normal there and the
   /// piece's share of second_moment.

@@ -2,21 +2,17 @@
 #pragma once
 
 #include <algorithm>
-#include <type_traits>
 
 #include "dem_gpu/walls/wall_columns.h"
 
 namespace dem_gpu {
 
 /// Where a point stands against an analytic wall. The wall's solid is where all three are >= 0.
-template <class Scalar>
-struct BasicWallField {
-  Scalar depth = 0;      // below the surface [m]; 1-Lipschitz
-  Scalar from_base = 1;  // inside the wall's extent [m]
-  Scalar from_top = 1;
+struct WallField {
+  Real depth = 0;      // below the surface [m]; 1-Lipschitz
+  Real from_base = 1;  // inside the wall's extent [m]
+  Real from_top = 1;
 };
-using WallField = BasicWallField<Real>;
-using LocalWallField = BasicWallField<LocalReal>;
 
 /// Cylindrical coordinates about the wall's axis.
 struct AxialPosition {
@@ -50,27 +46,6 @@ TALUS_HD inline WallField wall_field(const WallRecord& wall, const Vec3& x) {
   const Real gap = position.radius - (wall.base_radius + slope * position.along);
   const Real depth = (wall.solid_within ? -gap : gap) / std::sqrt(1 + slope * slope);
   return {depth, position.along, wall.length - position.along};
-}
-
-/// The same to the precision of contact geometry: found in Real, so that it keeps its digits however large the wall is.
-template <class Scalar = LocalReal>
-TALUS_HD inline BasicWallField<Scalar> local_wall_field(const WallRecord& wall, const Vec3& x) {
-  if constexpr (std::is_same_v<Scalar, Real>) {
-    return wall_field(wall, x);
-  } else {
-    const WallField field = wall_field(wall, x);
-    return {static_cast<Scalar>(field.depth), static_cast<Scalar>(field.from_base),
-            static_cast<Scalar>(field.from_top)};
-  }
-}
-
-/// Normal of a wall's surface nearest to x, from the wall to the bodies.
-TALUS_HD inline Vec3 wall_normal(const WallRecord& wall, const Vec3& x) {
-  if (wall.kind == WallKind::plane || wall.kind == WallKind::disc) return wall.direction;
-  const Real side = wall.solid_within ? 1 : -1;
-  if (wall.kind == WallKind::sphere) return side * unit_or(x - wall.point, wall.direction);
-  const Real slope = (wall.top_radius - wall.base_radius) / wall.length;
-  return (side / std::sqrt(1 + slope * slope)) * (axial_position(wall, x).outward - slope * wall.direction);
 }
 
 /// Signed distance of a point from a wall's surface, positive in the solid, and the unit direction into the solid

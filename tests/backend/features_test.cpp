@@ -40,7 +40,31 @@ TEST(Absent, PassesOfWhatIsNotThere) {
   scene.outflow.reset();
   EXPECT_EQ(passes(scene),
             (Names{"advance_bodies", "advance_walls", "neighbour_list", "polyhedron_mesh_contacts", "gather_forces"}));
-  EXPECT_EQ(passes(mixed_scene()).size(), 12u) << "everything but meshes";
+  EXPECT_EQ(passes(mixed_scene()).size(), 13u) << "everything but meshes";
+}
+
+TEST(Absent, SeamsAreCrossedOnlyWhereThereAreSome) {
+  dem_gpu::Scene scene = spheres();
+  scene.bodies.resize(1);
+  const auto block_at = [](const std::string& name, Real x) {
+    dem_gpu::Wall wall;
+    wall.name = name;
+    wall.geometry = dem_gpu::VolumeObject{moved_part(dem_gpu::box_part({1, 1, 1}), {}, {x, 0, 0})};
+    return wall;
+  };
+  const Names apart{"advance_bodies", "neighbour_list", "sphere_object_contacts", "gather_forces"};
+  scene.walls = {block_at("left", 0), block_at("right", 1.01)};
+  EXPECT_EQ(passes(scene), apart);
+  scene.walls = {block_at("left", 0), block_at("right", 1)};
+  EXPECT_EQ(passes(scene),
+            (Names{"advance_bodies", "neighbour_list", "seam_crossings", "sphere_object_contacts", "gather_forces"}));
+  scene.walls[1].removed_at = 1;
+  EXPECT_EQ(passes(scene),
+            (Names{"advance_bodies", "advance_walls", "neighbour_list", "sphere_object_contacts", "gather_forces"}))
+      << "not one solid";
+  scene.walls = {block_at("left", 0), block_at("right", 1)};
+  scene.bodies[0].shape = 1;
+  EXPECT_EQ(passes(scene), (Names{"advance_bodies", "neighbour_list", "polyhedron_object_contacts", "gather_forces"}));
 }
 
 TEST(Absent, ColumnsOfWhatIsNotThere) {

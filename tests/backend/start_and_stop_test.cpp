@@ -5,6 +5,7 @@
 #include "catalog/input_error.h"
 #include "tests/support/dem_runs.h"
 #include "tests/support/mixed_scene.h"
+#include "tests/support/solids.h"
 
 namespace {
 
@@ -47,6 +48,64 @@ TEST(FailedRun, DeepOverlapAtTheStartIsRefusedByName) {
     EXPECT_NE(message.find("largest_start_overlap"), std::string::npos) << message;
   }
   EXPECT_NO_THROW(dem_gpu::Simulation(overlapping_cubes(0.019)));  // 5 % of the edge
+}
+
+std::string refusal(const dem_gpu::Scene& scene) {
+  try {
+    dem_gpu::Simulation simulation(scene);
+  } catch (const catalog::InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+void expect_named(const std::string& message, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+TEST(BadWall, TooFastIsRefusedByName) {
+  dem_gpu::Scene scene = overlapping_cubes(0.1);
+  dem_gpu::Wall lid = floor_wall("lid"), mill = floor_wall("mill");
+  for (dem_gpu::Wall* wall : {&lid, &mill}) std::get<dem_gpu::Plane>(wall->geometry).point.z = -3;
+  lid.motion.velocity = {0, 0, 0.1};
+  mill.motion.velocity = {0, 0, 0.02 / dem_gpu::time_step(scene)};  // an edge of the cubes a step
+  scene.walls = {lid, mill};
+  expect_named(refusal(scene), {"wall 'mill'", "quarter of the least width of body 0", "time step of at most"});
+  scene.walls = {lid};
+  EXPECT_EQ(refusal(scene), "accepted");
+}
+
+TEST(BadWall, TwoMovingObjectsOfOneNameAreRefused) {
+  dem_gpu::Scene scene = overlapping_cubes(0.1);
+  dem_gpu::Wall lifter;
+  lifter.name = "lifter";
+  lifter.motion.velocity = {0, 0, 0.1};
+  lifter.geometry = dem_gpu::VolumeObject{moved_part(dem_gpu::box_part({0.02, 0.02, 0.02}), {}, {0, 0, -1})};
+  scene.walls = {lifter, lifter};
+  scene.walls[1].geometry = dem_gpu::VolumeObject{moved_part(dem_gpu::box_part({0.02, 0.02, 0.02}), {}, {0, 0, -2})};
+  expect_named(refusal(scene), {"wall 'lifter'", "two of that name"});
+}
+
+TEST(BadWall, MeshesThatEncloseNothingAreRefusedByName) {
+  const catalog::TriangleMesh cube = solids::box({-1, -1, -3}, {1, 1, -2});
+  const auto refused = [](catalog::TriangleMesh mesh) {
+    dem_gpu::Scene scene = overlapping_cubes(0.1);
+    dem_gpu::Wall bin;
+    bin.name = "bin";
+    bin.geometry = dem_gpu::MeshObject{std::move(mesh)};
+    scene.walls = {floor_wall(), bin};
+    std::get<dem_gpu::Plane>(scene.walls[0].geometry).point.z = -5;
+    return refusal(scene);
+  };
+  EXPECT_EQ(refused(cube), "accepted");
+  catalog::TriangleMesh open = cube, inverted = cube, crossed = cube;
+  open.faces.pop_back();
+  expect_named(refused(open), {"wall 'bin'", "give the sheet a thickness"});
+  for (auto& face : inverted.faces) std::swap(face[0], face[1]);
+  expect_named(refused(inverted), {"wall 'bin'", "inverted"});
+  for (const auto& p : solids::box({0.5, -0.5, -2.6}, {1.5, 0.5, -2.4}).vertices) crossed.vertices.push_back(p);
+  for (const auto& [a, b, c] : cube.faces) crossed.faces.push_back({a + 8, b + 8, c + 8});
+  expect_named(refused(crossed), {"wall 'bin'", "pass through each other"});
 }
 
 TEST(FailedRun, DeepOverlapIsAllowedWhenAskedForAndItsEnergyIsCounted) {

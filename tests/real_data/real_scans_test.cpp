@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <optional>
+#include <ostream>
 #include <string>
 
 #include "catalog/input_error.h"
@@ -20,6 +21,8 @@ struct RealScan {
   double metres_per_unit, volume, area;
   bool may_be_refused = false;
 };
+
+void PrintTo(const RealScan& scan, std::ostream* out) { *out << scan.file; }
 
 const RealScan kScans[] = {
     {"epfl_stone10_cloud.ply", 1, 2.37457e-4, 2.27391e-2},

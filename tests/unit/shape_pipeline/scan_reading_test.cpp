@@ -7,6 +7,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <ostream>
 #include <string>
 
 #include "catalog/input_error.h"
@@ -203,6 +204,8 @@ struct BadFile {
   std::function<std::string()> contents;
   const char* expected;  // part of the message
 };
+
+void PrintTo(const BadFile& bad, std::ostream* out) { *out << bad.expected; }
 
 std::string cut(const std::string& text, double share) {
   return text.substr(0, static_cast<std::size_t>(share * static_cast<double>(text.size())));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -279,6 +280,8 @@ struct BadScene {
   const char* message;   // part of it
 };
 
+void PrintTo(const BadScene& bad, std::ostream* out) { *out << bad.message; }
+
 class RefusedScene : public testing::TestWithParam<BadScene> {};
 
 TEST_P(RefusedScene, NamesPlaceAndRemedy) {
@@ -395,6 +398,8 @@ TEST(SceneReader, RefusesNamesThatCannotBeToldApart) {
                       "[[wall]]\nname = \"lifter_02\"\ntype = \"plane\"\npoint = [0, 0, -1]\nnormal = [0, 0, 1]\n"
                       "material = \"steel\"\n[[lifters]]"),
                  "two walls are named \"lifter_02\"");
+  expect_refused(drum_scene() + "[motion.spin]\nrotate = \"3 rpm\"\n[motion.spin]\nrotate = \"4 rpm\"\n",
+                 "motion.spin");
   for (const char* name : {".", "..", "a/b"})
     expect_refused(with(drum_scene(), "name = \"drum\"", "name = \"" + std::string(name) + "\""), "name must not");
 }

@@ -90,7 +90,7 @@ Finding wall_faster_than_a_body() {
   scene.walls = {floor_wall()};
   std::get<dem_gpu::Plane>(scene.walls[0].geometry).point.z = -1;
   scene.walls[0].motion.velocity = {0, 0, kEdge / dem_gpu::time_step(scene)};
-  return named(message_of([&] { Simulation simulation(scene); }), {"walls", "body 0", "time step of at most"});
+  return named(message_of([&] { Simulation simulation(scene); }), {"wall 'floor'", "body 0", "time step of at most"});
 }
 
 Finding step_beyond_a_fifth() {

@@ -84,7 +84,7 @@ WallIntegrals integrate(const std::vector<catalog::ConvexPart>& parts, const Pla
   const PairIntegrals shapes(parts, {unit_cube()});
   WallIntegrals integrals;
   for (int p = 0; p < shapes.columns().shapes[0].part_count; ++p)
-    integrate_part_in_wall(dem_gpu::part_view(view(shapes.columns()), p), body.pose(), wall, integrals);
+    integrate_part_in_plane(dem_gpu::part_view(view(shapes.columns()), p), body.pose(), wall, integrals);
   return integrals;
 }
 
@@ -122,26 +122,6 @@ TEST(WallIntegrals, ClosedFormsOfACubeOnAPlane) {
   EXPECT_LT(norm(cut.force - flat.force), 1e-15 + kSingle.position * d);
   // At twice the scale and a quarter of the attitude's symmetry the force is that of the larger face.
   EXPECT_NEAR(integrate({unit_cube()}, {{0, 0, 1 - d}, {}, 2}, plane).force.z, 4 * d, 1e-14 + 4 * kSingle.position * d);
-}
-
-TEST(WallIntegrals, CurvedWallHoldsItsChordError) {
-  // A small cube pressed flat into a cylinder of radius R: against the same integral over 100 x 100 pieces of its face.
-  const auto error_at = [](Real radius) {
-    const WallRecord wall = record_of(dem_gpu::Cylinder{{0, 0, -5}, {0, 0, 1}, 10, radius});
-    const Real d = 0.05;
-    const auto found = integrate({unit_cube()}, {{radius - 0.5 + d, 0, 0}, {}}, wall);
-    Real exact = 0;
-    constexpr int n = 400;
-    for (int i = 0; i < n; ++i) {
-      const Real y = (i + 0.5) / n - 0.5;
-      exact += std::max(Real(0), std::hypot(radius + d, y) - radius) / n;
-    }
-    return std::abs(-found.force.x / exact - 1);
-  };
-  // Pieces whose chord leaves the wall by at most kChordError radii: two thirds of that in the mean, over a depth of
-  // 0.05.
-  const Real bound = dem_gpu::kChordError * std::sqrt(Real(0.75)) * 2 / 3 / 0.05;
-  for (const Real radius : {2, 5, 20, 100}) EXPECT_LT(error_at(radius), bound) << radius;
 }
 
 TEST(WallMotion, RampsAndTurns) {
@@ -260,24 +240,6 @@ TEST(WallIntegrals, DiscSmallerThanAFaceIsMet) {
       << "the rim's polygon has the disc's area";
   EXPECT_LT(norm(integrals.moment - cross(Vec3{0.1, 0.05, 0}, integrals.force)),
             1e-12 + kSingle.position * M_PI * 0.04);
-}
-
-TEST(WallIntegrals, FaceOnABallAndAShaft) {
-  const PairIntegrals shapes({unit_cube()}, {unit_cube()});
-  const auto part = dem_gpu::part_view(view(shapes.columns()), 0);
-  const auto force_on_face = [&](const WallRecord& wall, Real height) {
-    WallIntegrals integrals;
-    EXPECT_TRUE(integrate_part_outside(part, {{}, {0.05, 0.02, height + 0.5}, 1}, wall, integrals));
-    return integrals.force.z;
-  };
-  const Real radius = 0.1, h = 0.095, rho = std::sqrt(radius * radius - h * h);
-  const auto ball = record_of(dem_gpu::Ball{{0, 0, 0}, radius, dem_gpu::SolidSide::within});
-  const Real on_ball = 2 * M_PI * (radius * rho * rho / 2 - (std::pow(radius, 3) - std::pow(h, 3)) / 3);
-  EXPECT_NEAR(force_on_face(ball, h) / on_ball, 1, 0.01);  // kMostPiecesOutside
-  const auto shaft = record_of(dem_gpu::Cylinder{{-2, 0, 0}, {1, 0, 0}, 4, radius, dem_gpu::SolidSide::within});
-  // Across the strip: integral of R - sqrt(h2 + y2); the face covers a length of 1.
-  const Real across = radius * rho - (h * h * std::asinh(rho / h));
-  EXPECT_NEAR(force_on_face(shaft, h) / across, 1, 0.01);
 }
 
 TEST(WallSurface, BallInsideAndOutside) {
