@@ -75,22 +75,20 @@ Real tangential_stiffness_ratio(const Scene& scene, const Material& a, const Mat
 std::vector<PairProperties> pair_properties(const Scene& scene) {
   const std::size_t n = scene.materials.size();
   const Real sphere_exponent = std::visit([](const auto& law) { return law.kExponent; }, scene.sphere_law);
-  std::map<Real, DampingRatios> solved;
-  std::map<Real, Real> solved_for_spheres;
+  // Of tangent stiffness: damped_stiffness of a power law over it, its root.
+  const Real of_tangent = std::sqrt(damped_stiffness(1, 1 / sphere_exponent));
+  std::map<Real, Real> solved;
   std::vector<PairProperties> pairs(n * n);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
       const ContactProperties& contact = scene.contact[i][j];
       const Real restitution = contact.restitution;
-      if (!solved.contains(restitution)) {
-        solved[restitution] = damping_ratios(restitution);
-        solved_for_spheres[restitution] = damping_ratio(sphere_exponent, restitution);
-      }
+      if (!solved.contains(restitution)) solved[restitution] = damping_ratio(restitution);
       const Material &a = scene.materials[i], &b = scene.materials[j];
       pairs[i * n + j] = {solved[restitution],
                           contact.friction_coefficient,
                           effective_modulus(a, b),
-                          solved_for_spheres[restitution],
+                          of_tangent * solved[restitution],
                           tangential_stiffness_ratio(scene, a, b),
                           contact.rolling_friction,
                           contact.adhesion};

@@ -15,6 +15,10 @@ namespace dem_gpu {
 //   apply(contacts, c, elastic, impact)   damping force, positive when repulsive [N]; may refine the elastic force
 //   forget(contacts, c)                   ends its history
 
+/// Depth of a contact that has just begun over the way of approach in a step, at most. Above 1 by the turn of the
+/// normal during a step: bodies that touch deeper than they came were placed so.
+inline constexpr Real kTouchMargin = Real(1.1);
+
 /// What a damping policy sees of a touching contact besides the elastic force.
 struct NormalImpact {
   const PairProperties& pair;
@@ -25,16 +29,31 @@ struct NormalImpact {
   Real time_step;        // [s]
 };
 
-/// Dashpot evaluated once a step. The whole normal force never pulls.
+/// Dashpot beside the elastic force of Verlet, by the implicit midpoint rule over the step that the next full kick
+/// spans. Its window begins at touch, where the force of flat faces jumps: restitution does not depend on where in a
+/// step they touch. The whole normal force never pulls.
 struct PointDamping {
-  TALUS_HD static Real apply(const ContactView&, int, ElasticContact& elastic, const NormalImpact& impact) {
+  TALUS_HD static Real apply(const ContactView& contacts, int c, const ElasticContact& elastic,
+                             const NormalImpact& impact) {
+    const Real mass = impact.effective_mass, step = impact.time_step;
+    if (!(step > 0)) return 0;  // forces of a start, before any step
     const Real force = norm(elastic.force);
-    const Real exponent = elastic.stiffness * elastic.depth / force;
-    const Real coefficient =
-        2 * impact.pair.damping.at(exponent) * std::sqrt(impact.effective_mass * elastic.stiffness);
-    return std::max(coefficient * impact.predicted_speed, -force);
+    const Real rate =
+        dashpot(impact.pair.damping_ratio, mass, damped_stiffness(elastic.stiffness, force / elastic.depth)) / mass;
+    const Real window = contacts.depth[c] == 0 ? step_of_touch(elastic.depth, impact) : step;
+    const Real contact_before = -dot(contacts.force[c], elastic.normal) / mass;
+    const Real by_others = 2 * (impact.predicted_speed - impact.mean_speed) / step + contact_before;
+    const Real speed = (impact.mean_speed + window / 2 * (by_others - force / mass)) / (1 + rate * window / 2);
+    return std::max(mass * rate * speed * (window / step), -force);
   }
   TALUS_HD static void forget(const ContactView&, int) {}
+
+ private:
+  /// From touch to half a step after the end of the step in which it fell [s].
+  TALUS_HD static Real step_of_touch(Real depth, const NormalImpact& impact) {
+    const Real step = impact.time_step;
+    return depth <= kTouchMargin * step * impact.mean_speed ? step / 2 + depth / impact.mean_speed : step;
+  }
 };
 
 /// The same dashpot for the power law F ~ depth^n of a sphere law, integrated within the step: restitution does not
@@ -122,8 +141,6 @@ struct OrbitDamping {
   static constexpr int kMostSubsteps = 512;
   static constexpr int kElasticSubsteps = 4;
   static constexpr Real kFineStep = 0.2;  // of 1 / rate: 16 steps a contact
-  /// Above 1 by the turn of the normal during a step: bodies that touch deeper than they came were placed so.
-  static constexpr Real kTouchMargin = Real(1.1);
 };
 
 }  // namespace dem_gpu

@@ -1,34 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
+
 #include "dem_gpu/core/host_device.h"
 #include "dem_gpu/core/real.h"
 
 namespace dem_gpu {
 
-/// Damping ratios that give one coefficient of restitution for contacts F ~ depth^n, tabulated over n = 1, 1.5, 2, 2.5,
-/// 3. With damping force c v, c = 2 ratio sqrt(m_eff dF/d(depth)), restitution does not depend on impact speed for any
-/// n (after Tsuji et al., Powder Technol. 71 (1992) 239-250, eq. 11, there for n = 1.5).
-struct DampingRatios {
-  Real ratio[5] = {0, 0, 0, 0, 0};
+// A dashpot that gives one coefficient of restitution whatever the elastic law and the impact speed. With the stored
+// energy U(depth) and F = dU/d(depth), the damping force c v, c = 2 z sqrt(m_eff) F / sqrt(2 U), makes of the impact a
+// linear oscillator of damping ratio z, in the place sqrt(2 U) and a time that runs as d sqrt(2 U)/d(depth). (For
+// Hertz: Antypov & Elliott, Europhys. Lett. 94 (2011) 50004.) The impact ends where elastic and damping force together
+// are zero: they never pull.
 
-  TALUS_HD Real at(Real exponent) const {
-    const Real place = exponent <= 1 ? 0 : exponent >= 3 ? 4 : 2 * (exponent - 1);
-    const int low = place >= 4 ? 3 : static_cast<int>(place);
-    return ratio[low] + (place - low) * (ratio[low + 1] - ratio[low]);
-  }
-};
-
-/// Solves for the ratios by integrating the normal impact; the total normal force is never attractive. `restitution` in
-/// (0, 1].
-DampingRatios damping_ratios(Real restitution);
-
-/// The ratio for F ~ depth^exponent alone. `restitution` in [0, 1]; below kLeastRestitution, that is meant.
-Real damping_ratio(Real exponent, Real restitution);
+/// z for a coefficient of restitution in [0, 1]; below kLeastRestitution, that is meant. With z = cos(s) restitution is
+/// exp(-2 s cot(s)), with z = cosh(s) it is exp(-2 s coth(s)) (Schwager & Poeschel, Granular Matter 9 (2007) 465-469,
+/// rewritten).
+Real damping_ratio(Real restitution);
 /// A dashpot never takes all: within this of zero.
 inline constexpr Real kLeastRestitution = Real(5e-4);
 
-/// Restitution of a normal impact with F ~ depth^n at a given damping ratio.
-Real impact_restitution(Real exponent, Real damping_ratio);
+/// F^2 / (2 U) of a power law F ~ depth^n: the mean of tangent and secant stiffness [N/m].
+TALUS_HD inline Real damped_stiffness(Real tangent, Real secant) { return (tangent + secant) / 2; }
+
+/// c of a dashpot [N s/m]. `stiffness`: damped_stiffness.
+TALUS_HD inline Real dashpot(Real damping_ratio, Real effective_mass, Real stiffness) {
+  return 2 * damping_ratio * std::sqrt(effective_mass * stiffness);
+}
 
 }  // namespace dem_gpu

@@ -159,10 +159,8 @@ std::int64_t fingerprint(const Model& model) {
   mix(&law, sizeof(law));
   const auto pairs = to_host(model.pairs);
   for (const PairProperties& pair : pairs) {
-    mix(pair.damping.ratio, sizeof(pair.damping.ratio));
-    mix(&pair.friction_coefficient, sizeof(Real));
-    for (const Real value : {pair.effective_modulus, pair.sphere_damping, pair.tangential_stiffness_ratio,
-                             pair.rolling_friction, pair.adhesion})
+    for (const Real value : {pair.damping_ratio, pair.friction_coefficient, pair.effective_modulus, pair.sphere_damping,
+                             pair.tangential_stiffness_ratio, pair.rolling_friction, pair.adhesion})
       mix(&value, sizeof(value));
   }
   std::visit([&](const auto& chosen) { mix(&chosen.stiffness, sizeof(Real)); }, model.scene.polyhedral_law);

@@ -54,8 +54,8 @@ struct DepthIntegralsOf {
     TALUS_HD Real along(const Vec3& n) const { return std::abs(dot(n, tangent * n)); }
     /// Slope of the field along n, 1 for a face at right angles to it.
     TALUS_HD Real steepness(const Vec3& n) const {
-      const Real projected = std::abs(dot(area, n));
-      return projected > 0 ? std::min(Real(1), along(n) / projected) : 0;
+      const Real projected = std::abs(dot(area, n)), change = along(n);
+      return change >= projected ? Real(change > 0) : change / projected;
     }
   };
   FieldSlope field_a, field_b;
@@ -102,9 +102,9 @@ struct DepthIntegralsOf {
     contact.force = (law.stiffness * cube) * (a.rotation * force);
     contact.torque_a = (law.stiffness * cube * a.scale) * (a.rotation * moment);
     contact.point = a.position + a.rotation * ((a.scale / weight) * weighted_point);
-    if (!set_normal(contact)) return false;
-    const Vec3 n = unit_or(force - seam_force, {0, 0, 1});
-    if (seam_force != Vec3{}) contact.normal = -(a.rotation * n);
+    const Vec3 n = force_direction();
+    if (!(norm_squared(n) > 0)) return false;
+    contact.normal = -(a.rotation * n);
     contact.stiffness = law.stiffness * square * (field_a.along(n) + field_b.along(n));
     contact.depth = a.scale * depth_along(n);
     // Beyond the cap the force grows no more; the secant stands in for the tangent, which damping and friction divide
@@ -118,6 +118,15 @@ struct DepthIntegralsOf {
                                  const ElasticContact& /*contact*/) const requires kHasPatch {
     return {rotated(patch.normals(), a.rotation), law.stiffness * a.scale * a.scale * a.scale * patch.load(),
             a.scale * patch.lever(), law.stiffness_per_area()};
+  }
+
+  /// Of the force on a, what welded seams add left out; of friction's patches where their forces cancel, as in a slot.
+  /// Zero where there is none.
+  TALUS_HD Vec3 force_direction() const {
+    const Vec3 n = unit_or(force - seam_force, Vec3{});
+    if constexpr (kHasPatch)
+      if (!(norm_squared(n) > 0)) return shared_normal(patch.normals());
+    return n;
   }
 
   /// Depth of the overlap along the force: the depth below the planes of the steeper field over its steepness there.

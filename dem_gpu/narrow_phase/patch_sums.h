@@ -26,6 +26,15 @@ TALUS_HD inline Mat3 rotated(const Mat3& tensor, const Mat3& r) {
           half * Vec3{r.column_x.z, r.column_y.z, r.column_z.z}};
 }
 
+/// The direction that patches' normals share, of either sign, from the load-weighted mean of n n^T; zero without a
+/// load.
+TALUS_HD inline Vec3 shared_normal(const Mat3& normals) {
+  Vec3 longest = normals.column_x;
+  if (norm_squared(normals.column_y) > norm_squared(longest)) longest = normals.column_y;
+  if (norm_squared(normals.column_z) > norm_squared(longest)) longest = normals.column_z;
+  return unit_or(longest, Vec3{});
+}
+
 /// Share of a piece of surface that counts as a flat contact of its own: it meets the other body's field at right
 /// angles. 1 for face on face, 0 from 18 degrees on, without a jump between (a cube's corner on a face meets it at 55
 /// degrees).

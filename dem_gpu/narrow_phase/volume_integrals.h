@@ -21,11 +21,12 @@ struct VolumeIntegralsOf {
   static constexpr bool kNeedsDepthPlanes = false;
   static constexpr bool kHasPatch = std::is_same_v<Sums, PatchSums>;
 
-  Real volume = 0;    // V [m3]
-  Vec3 area;          // S = integral over a's surface in b of n dA [m2]
-  Vec3 area_moment;   // M = integral over the same of x cross n dA, about a's centre [m3]
-  Vec3 first_moment;  // integral of (x - reference) dV [m4]
-  Vec3 reference;     // a point of the overlap [m]
+  Real volume = 0;                 // V [m3]
+  Vec3 area;                       // S = integral over a's surface in b of n dA [m2]
+  Vec3 area_moment;                // M = integral over the same of x cross n dA, about a's centre [m3]
+  Vec3 first_moment;               // integral of (x - reference) dV [m4]
+  Mat3 second_moment{{}, {}, {}};  // integral of (x - reference) (x - reference)^T dV [m5]
+  Vec3 reference;                  // a point of the overlap [m]
   bool has_reference = false;
   Sums patch;  // of the area
 
@@ -55,6 +56,18 @@ struct VolumeIntegralsOf {
 
   TALUS_HD Vec3 centroid() const { return volume > 0 ? reference + (1 / volume) * first_moment : reference; }
 
+  /// Depth of the overlap along the unit vector n of S: for V ~ depth^p it is p times the mean depth V / |S|. p shows
+  /// in the spread of the overlap along n: variance over the mean depth squared is p^3 / ((p + 1)^2 (p + 2)).
+  TALUS_HD Real depth_along(const Vec3& n) const {
+    constexpr Real kFlat = Real(1) / 12, kEdge = Real(2) / 9, kCorner = Real(27) / 80;  // p = 1, 2, 3
+    const Real mean_depth = volume / norm(area), centre = dot(first_moment, n) / volume;
+    const Real variance = dot(n, second_moment * n) / volume - centre * centre;
+    const Real spread = std::min(std::max(variance / (mean_depth * mean_depth), kFlat), kCorner);
+    const Real power = spread < kEdge ? 1 + (spread - kFlat) / (kEdge - kFlat)  // to 0.03 between the three
+                                      : 2 + (spread - kEdge) / (kCorner - kEdge);
+    return power * mean_depth;
+  }
+
   /// F = k V n at the centroid of the overlap, n along S.
   TALUS_HD bool to_contact(const OverlapVolume& law, const Pose& a, ElasticContact& contact) const {
     const Real area_norm = norm(area);
@@ -65,7 +78,7 @@ struct VolumeIntegralsOf {
     contact.torque_a = cross(branch, contact.force);
     contact.point = a.position + branch;
     contact.stiffness = law.stiffness * square * area_norm;
-    contact.depth = a.scale * volume / area_norm;  // mean depth over the contact's area
+    contact.depth = a.scale * depth_along((1 / area_norm) * area);
     return set_normal(contact);
   }
 
@@ -96,9 +109,12 @@ struct VolumeIntegralsOf {
     for (int c = 2; c < polygon.count; ++c) {
       const LocalVec3 b = polygon.corner[c - 1] - origin, d = polygon.corner[c] - origin;
       const LocalReal triangle = dot(cross(b - a, d - a), normal) / 2;
-      volume += triangle * height / 3;
-      // Pyramid to the reference point: its centroid lies at 3/4 of the way to the base's.
-      first_moment += Vec3((triangle * height / 12) * (a + b + d));
+      const LocalReal pyramid = triangle * height / 3;  // to the reference point
+      volume += pyramid;
+      // Its centroid lies at 3/4 of the way to the base's.
+      const LocalVec3 corners[4] = {a, b, d, a + b + d};
+      first_moment += Vec3(pyramid / 4 * corners[3]);
+      for (const LocalVec3& corner : corners) add_outer_product(second_moment, pyramid / 20, Vec3(corner));
     }
   }
 };

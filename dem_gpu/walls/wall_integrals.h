@@ -102,7 +102,9 @@ struct WallIntegralsOf {
     contact.point = centre + (1 / weight) * weighted_point;
     contact.stiffness = stiffness * norm(area);
     contact.depth = largest_depth;
-    return set_normal(contact);
+    if (set_normal(contact)) return true;
+    if constexpr (kHasPatch) contact.normal = shared_normal(patch.normals());  // a slot: the forces cancel
+    return norm_squared(contact.normal) > 0;
   }
 
   TALUS_HD ContactPatch to_patch(Real stiffness) const requires kHasPatch {

@@ -19,11 +19,11 @@ namespace dem_gpu {
 
 /// Damping and friction of a pair of materials.
 struct PairProperties {
-  DampingRatios damping;
+  Real damping_ratio = 0;  // of restitution_damping.h [-]
   Real friction_coefficient = 0;
   Real effective_modulus = 0;  // Hertz E* [Pa]
   // Of sphere contacts.
-  Real sphere_damping = 0;              // damping ratio of the sphere law [-]
+  Real sphere_damping = 0;              // damping ratio of the sphere law, of tangent stiffness [-]
   Real tangential_stiffness_ratio = 0;  // tangential over normal stiffness [-]
   Real rolling_friction = 0;            // mu_r [-]
   Real adhesion = 0;                    // work of adhesion [J/m2]

@@ -57,6 +57,9 @@ struct PatchFriction {
   /// a line: 0.87, a disc: 0.94.
   static constexpr Real kSpinShare = Real(0.93);
 
+  /// Damping ratio that a dashpot evaluated once a step stands.
+  static constexpr Real kLargestRatio = 3;
+
   Real tangential_stiffness_ratio;  // tangential over normal stiffness [-]
 
   TALUS_HD FrictionForces apply(const ContactView& contacts, int c, const FrictionContact& contact,
@@ -77,7 +80,8 @@ struct PatchFriction {
     contacts.turning_displacement[c] = springs.spin;
     contacts.spring_normal[c] = normal;
 
-    const Real damping = 2 * contact.pair.damping.ratio[0] * std::sqrt(contact.effective_mass / stiffness);  // [s]
+    const Real ratio = std::min(contact.pair.damping_ratio, kLargestRatio);
+    const Real damping = dashpot(ratio, contact.effective_mass, stiffness) / stiffness;  // [s]
     PatchSprings rate{damping * patch.slip(contact.predicted.velocity),
                       (damping * patch.lever) * patch.spin(contact.predicted.angular_velocity)};
     rate.scale(share_within(limit, springs, rate));

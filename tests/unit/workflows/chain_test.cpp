@@ -7,6 +7,7 @@
 
 #include "catalog/input_error.h"
 #include "tests/support/dem_runs.h"
+#include "tests/support/linked_rings.h"
 #include "tests/support/scene_text.h"
 #include "workflows/ring_shape.h"
 #include "workflows/scene_assembly.h"
@@ -25,45 +26,16 @@ const dem_gpu::Shape& link() {
   return shape;
 }
 
-/// Centreline of a ring at a pose, `points` long.
-std::vector<Vec3> centreline(const Vec3& position, const dem_gpu::Quaternion& turn, const Vec3& normal) {
-  constexpr int kPoints = 72;
-  const Vec3 u = dem_gpu::any_perpendicular(normal), v = cross(normal, u);
-  std::vector<Vec3> line;
-  for (int i = 0; i < kPoints; ++i) {
-    const double angle = 2 * M_PI * i / kPoints;
-    line.push_back(position + kDiameter / 2 * rotate(turn, std::cos(angle) * u + std::sin(angle) * v));
-  }
-  return line;
-}
-
-/// Gauss linking number of two closed polygons: sum of the solid angles of their pairs of segments over 4 pi (Banchoff,
-/// Indiana Univ. Math. J. 25 (1976) 1171). Whole but for rounding.
-double linking_number(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const Vec3 &a0 = a[i], &a1 = a[(i + 1) % a.size()], &b0 = b[j], &b1 = b[(j + 1) % b.size()];
-      const Vec3 r[] = {b0 - a0, b0 - a1, b1 - a1, b1 - a0};
-      const auto triangle = [](const Vec3& x, const Vec3& y, const Vec3& z) {  // van Oosterom & Strackee 1983
-        const double p = norm(x), q = norm(y), s = norm(z);
-        return 2 * std::atan2(dot(x, cross(y, z)), p * q * s + dot(x, y) * s + dot(y, z) * p + dot(z, x) * q);
-      };
-      sum += triangle(r[0], r[1], r[2]) + triangle(r[0], r[2], r[3]);
-    }
-  return sum / (4 * M_PI);
-}
-
 /// Are all neighbouring links linked once, and no others?
 void expect_linked(const dem_gpu::Snapshot& snapshot, bool is_closed, const std::string& when) {
   const Vec3 normal = link_hole(link(), "test").normal;
   std::vector<std::vector<Vec3>> lines;
   for (std::size_t i = 0; i < snapshot.position.size(); ++i)
-    lines.push_back(centreline(snapshot.position[i], snapshot.orientation[i], normal));
+    lines.push_back(test_support::ring_centreline(kDiameter, snapshot.position[i], snapshot.orientation[i], normal));
   for (std::size_t i = 0; i < lines.size(); ++i)
     for (std::size_t j = 0; j < i; ++j) {
       const bool are_neighbours = i - j == 1 || (is_closed && i - j == lines.size() - 1);
-      EXPECT_NEAR(std::abs(linking_number(lines[i], lines[j])), are_neighbours ? 1 : 0, 1e-6)
+      EXPECT_NEAR(std::abs(test_support::linking_number(lines[i], lines[j])), are_neighbours ? 1 : 0, 1e-6)
           << when << ": links " << j << " and " << i;
     }
 }

@@ -331,4 +331,43 @@ TEST(Friction, OnlyDissipatesInImpactsOfAllKinds) {
   EXPECT_LT(largest_gain, 1e-4);
 }
 
+/// A cube in the slot of a fixed body, 2 x 10 um narrower than it: each side presses with N.
+struct Slot {
+  static constexpr double kSunk = 1e-5, kPress = 2 * kStiffness * kEdge * kEdge * kSunk;
+
+  /// `off`: of the cube from the middle [m]. `pull`: along the slot, over 2 mu N.
+  static Scene scene(double off, double pull) {
+    Scene scene = empty_scene(0.5, kFriction);
+    scene.polyhedral_law = dem_gpu::DepthPotential{kStiffness};
+    constexpr Real w = kEdge / 2 - kSunk;
+    // The two sides stand on a bottom, out of the cube's reach.
+    const auto parts = grid_parts({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 1}, {2, 0, 1}},
+                                  {std::vector<Real>{-w - kEdge, -w, w, w + kEdge}, std::vector<Real>{-0.04, 0.04},
+                                   std::vector<Real>{-0.04, -0.02, 0.02}});
+    scene.shapes = {box_shape({kEdge, kEdge, kEdge}),
+                    {"slot", dem_gpu::PolyhedralShape{parts}, 1e-4, {1e-8, 1e-8, 1e-8}}};
+    scene.bodies = {body_at(0, {off, 0, 0}), body_at(1, {})};
+    scene.bodies[1].is_fixed = true;
+    scene.gravity = {0, pull * 2 * kFriction * kPress / kMass, 0};
+    return scene;
+  }
+};
+
+TEST(Slot, CarriesTheFrictionOfBothSidesWhereTheirForcesCancel) {
+  for (const double off : {0.0, 1e-18, 1e-9, 1e-6}) {
+    const double time = 0.01, slack = 1e-4;
+    Simulation held(Slot::scene(off, 0.8)), sliding(Slot::scene(off, 1.25));
+    run_to(held, time);
+    run_to(sliding, time);
+    const double moved = held.snapshot().position[0].y;
+    const double speed = sliding.snapshot().velocity[0].y;
+    const double expected = 0.25 / 1.25 * norm(Slot::scene(off, 1.25).gravity) * time;
+    std::printf("  slot, %.0e m off the middle: at 0.8 of 2 mu N moves %.1e m, at 1.25 slides at %.4f m/s (%.4f)\n",
+                off, moved, speed, expected);
+    EXPECT_LT(std::abs(moved), slack) << "the friction springs give way";
+    // What the springs take before they slip: half their length's worth of motion.
+    EXPECT_NEAR(speed / expected, 1, 0.1);
+  }
+}
+
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <set>
+#include <string>
 
 #include "workflows/bench/bench_registry.h"
 #include "workflows/bench/bench_report.h"
@@ -26,15 +28,17 @@ TEST(ChungOoi, ExactPartsOfTestsOneToEight) {
 }
 
 TEST(ElasticBox, EnergyAndMomentum) {
-  // 500 collisions. The bench asks for 1e-6 of the energy, which is not met: pairs keep 1e-7 and better, but each
-  // meeting of three bodies costs about 1e-6. Here the bound is what a few such meetings leave.
-  constexpr double kFewTriples = 1e-5;
+  // The bench asks for 1e-6 of the energy, which takes 160 to 640 steps a contact. Here the bound is what 40 or 80
+  // leave while some bodies touch, and after a few meetings of three.
+  constexpr double kFewSteps = 1e-5;
   for (const BenchCase& bench_case : bench_named("box").plan({}).cases) {
-    if (bench_case.name != "spheres-short-80") continue;
+    const std::set<std::string> quick = {"spheres-short-80", "hertz-short-80", "mix-short-40"};
+    if (!quick.contains(bench_case.name)) continue;
+    std::printf("  %s\n", bench_case.name.c_str());
     for (const Figure& figure : bench_case.measure().figures) {
       std::printf("  %s: %.3g %s\n", figure.name.c_str(), figure.value.value(), figure.unit.c_str());
       if (figure.name.starts_with("energy")) {
-        EXPECT_LT(figure.value.value(), kFewTriples) << figure.name;
+        EXPECT_LT(figure.value.value(), kFewSteps) << figure.name;
       } else if (figure.goal) {
         EXPECT_EQ(is_goal_met(figure), true) << figure.name;
       }

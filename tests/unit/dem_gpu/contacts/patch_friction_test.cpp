@@ -28,7 +28,7 @@ struct OneContact {
   Real energy_before = 0;
 
   explicit OneContact(Real restitution) {
-    pair = {dem_gpu::damping_ratios(restitution), 0.5, 0};
+    pair = {dem_gpu::damping_ratio(restitution), 0.5, 0};
     elastic.normal = {0, 0, 1};
     set({{0, 0, 1}}, 1000, 0.008);
   }
