@@ -11,11 +11,11 @@ build=${1:?usage: workflows/accuracy_report.sh BUILD [BUILD_MIXED]}
 mixed=${2:-}
 page=docs/accuracy.md
 plots=docs/results/plots
-talus="$build/bin/talus"
-[ -x "$talus" ] || { echo "accuracy_report: no $talus; build first: make build" >&2; exit 2; }
-: "${BENCHES:=$("$talus" bench --list | sed -n 's/^\([a-z_]*\):.*/\1/p')}"
+for folder in "$build" ${mixed:+"$mixed"}; do
+  [ -x "$folder/bin/talus" ] || { echo "accuracy_report: no $folder/bin/talus; build it first" >&2; exit 2; }
+done
+: "${BENCHES:=$("$build/bin/talus" bench --list | sed -n 's/^\([a-z_]*\):.*/\1/p')}"
 
-mkdir -p "$plots"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -32,6 +32,21 @@ validation_tables() {
     END { close_block() }'
   echo
   sed -n '/tests passed/p; /(Failed)/p; /(Timeout)/p' "$work/log"
+}
+
+# Tables of the benches of a build folder; their plots go to a folder below docs/.
+bench_tables() {
+  mkdir -p "$2"
+  for bench in $BENCHES; do
+    echo "accuracy_report: $(basename "$1"): talus bench $bench" >&2
+    "$1/bin/talus" bench "$bench" --json "$work/$bench.json" --out "$2" >/dev/null || [ $? = 4 ]
+    echo
+    sed 's/^# /### /' "$2/$bench.md"
+    rm "$2/$bench.md"
+    for plot in "$2/${bench}"_*.svg; do
+      if [ -e "$plot" ]; then printf '\n%s\n' "![$(basename "$plot" .svg)](${plot#docs/})"; fi
+    done
+  done
 }
 
 {
@@ -51,17 +66,13 @@ validation_tables() {
     validation_tables "$mixed"
   fi
   echo
-  echo "## Speed against error"
-  for bench in $BENCHES; do
-    echo "accuracy_report: talus bench $bench" >&2
-    "$talus" bench "$bench" --json "$work/$bench.json" --out "$plots" >/dev/null || [ $? = 4 ]
+  echo "## Speed against error, double precision"
+  bench_tables "$build" "$plots"
+  if [ -n "$mixed" ]; then
     echo
-    sed 's/^# /### /' "$plots/$bench.md"
-    rm "$plots/$bench.md"
-    for plot in "$plots/${bench}"_*.svg; do
-      [ -e "$plot" ] && echo && echo "![$(basename "$plot" .svg)](${plot#docs/})"
-    done
-  done
+    echo "## Speed against error, mixed precision"
+    bench_tables "$mixed" "$plots/mixed"
+  fi
 } >"$work/page"
 mv "$work/page" "$page"
 echo "wrote $page"

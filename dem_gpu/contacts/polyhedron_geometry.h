@@ -23,8 +23,8 @@ template <class Sums = NoPatchSums>
 TALUS_HD DepthIntegralsOf<HardeningProfile, Sums> empty_integrals(const HardeningDepthPotential& law, Real diameter,
                                                                   Real scale_a, Real scale_b) {
   DepthIntegralsOf<HardeningProfile, Sums> integrals;
-  integrals.profile_a.rate = scale_a / (law.hardening * diameter);
-  integrals.profile_b.rate = scale_b / (law.hardening * diameter);
+  integrals.profile_a.rate = rounded(scale_a / (law.hardening * diameter));
+  integrals.profile_b.rate = rounded(scale_b / (law.hardening * diameter));
   return integrals;
 }
 

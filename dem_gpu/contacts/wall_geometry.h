@@ -17,7 +17,7 @@ template <class Sums>
 TALUS_HD WallIntegralsOf<HardeningProfile, Sums> empty_wall_integrals(const HardeningDepthPotential& law,
                                                                       Real diameter) {
   WallIntegralsOf<HardeningProfile, Sums> integrals;
-  integrals.profile.rate = 1 / (law.hardening * diameter);
+  integrals.profile.rate = rounded(1 / (law.hardening * diameter));
   return integrals;
 }
 

@@ -16,4 +16,9 @@ using LocalReal = double;
 inline constexpr const char* kPrecision = "double";
 #endif
 
+/// A tolerance of contact geometry, which follows the rounding of LocalReal.
+constexpr Real local_tolerance(Real in_double, Real in_single) {
+  return sizeof(LocalReal) == sizeof(double) ? in_double : in_single;
+}
+
 }  // namespace dem_gpu

@@ -13,10 +13,10 @@ namespace dem_gpu {
 template <class Integrals>
 TALUS_HD bool integrate_part_in_cell(const PlacedPart& body, const MeshView& mesh, const MeshFacet& facet,
                                      const Vec3& origin, Integrals& integrals) {
-  ScratchArray<HalfSpace, kMaxCellPlanes> planes;
+  ScratchArray<LocalHalfSpace, kMaxCellPlanes> planes;
   for (int p = 0; p < facet.plane_count; ++p) {
     const HalfSpace plane = mesh.planes[facet.first_plane + p];
-    planes[p] = {plane.normal, depth_below(plane, origin)};
+    planes[p] = rounded(HalfSpace{plane.normal, depth_below(plane, origin)});
   }
   return visit_part_inside(body, planes.data(), facet.plane_count, [&](const Polygon& polygon, int face) {
     integrals.add_polygon(polygon, planes[0], body.face_normal(face), face < body.part.range.outer_face_count);

@@ -60,34 +60,37 @@ struct DepthIntegralsOf {
   };
   FieldSlope field_a, field_b;
 
-  TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, bool is_outer, const PartView& a,
+  TALUS_HD void add_surface_b(const Polygon& polygon, const LocalHalfSpace& plane_b, bool is_outer, const PartView& a,
                               const FrameChange& b_to_a) {
     const Vec3 normal = b_to_a.direction(plane_b.normal);
-    const auto sum = integrate_depth<PolygonSum>(polygon, a.depth, normal, profile_a);
+    const auto sum = integrate_depth<PolygonSum>(polygon, a.depth, rounded(normal), profile_a);
     is_truncated |= sum.is_truncated;
-    add(sum.depth, sum.depth_moment, normal, is_outer);
+    const Vec3 depth_moment = sum.central_moment();
+    add(sum.depth, depth_moment, normal, is_outer);
     if (has_seams && !is_outer) seam_force += sum.depth * normal;
     field_a.add(sum.descent, sum.area * normal, normal, is_outer ? sum.largest : 0);
     if constexpr (kHasPatch)
-      if (is_outer) patch.add(patch.side_b, sum.depth, sum.aligned, normal, sum.depth_moment, sum.second_moment);
+      if (is_outer) patch.add(patch.side_b, sum.depth, sum.aligned, normal, depth_moment, sum.central_second_moment());
   }
 
-  TALUS_HD void add_surface_a(const Polygon& polygon, const HalfSpace& plane_a, bool is_outer, const PartView& b,
+  TALUS_HD void add_surface_a(const Polygon& polygon, const LocalHalfSpace& plane_a, bool is_outer, const PartView& b,
                               const FrameChange& b_to_a) {
-    const Vec3 normal_in_b = transpose_times(b_to_a.rotation, plane_a.normal);
-    const auto sum = integrate_depth<PolygonSum>(polygon, b.depth, normal_in_b, profile_b);
+    const Vec3 normal = plane_a.normal;
+    const auto sum =
+        integrate_depth<PolygonSum>(polygon, b.depth, rounded(transpose_times(b_to_a.rotation, normal)), profile_b);
     is_truncated |= sum.is_truncated;
     const Real s = b_to_a.scale, cube = s * s * s;
-    const Vec3 moment_in_a = cube * (s * b_to_a.direction(sum.depth_moment) + sum.depth * b_to_a.translation);
-    add(cube * sum.depth, moment_in_a, -plane_a.normal, is_outer);
-    field_b.add((s * s) * b_to_a.direction(sum.descent), (s * s * sum.area) * plane_a.normal, plane_a.normal,
+    const Vec3 turned_moment = b_to_a.direction(sum.central_moment());
+    const Vec3 moment_in_a = cube * (s * turned_moment + sum.depth * b_to_a.translation);
+    add(cube * sum.depth, moment_in_a, -normal, is_outer);
+    field_b.add((s * s) * b_to_a.direction(sum.descent), (s * s * sum.area) * normal, normal,
                 is_outer ? s * sum.largest : 0);
     if constexpr (kHasPatch)
       if (is_outer) {
         const Vec3& shift = b_to_a.translation;
-        const Real second = cube * (s * s * sum.second_moment + 2 * s * dot(shift, b_to_a.direction(sum.depth_moment)) +
+        const Real second = cube * (s * s * sum.central_second_moment() + 2 * s * dot(shift, turned_moment) +
                                     norm_squared(shift) * sum.depth);
-        patch.add(patch.side_a, cube * sum.depth, cube * sum.aligned, -plane_a.normal, moment_in_a, second);
+        patch.add(patch.side_a, cube * sum.depth, cube * sum.aligned, -normal, moment_in_a, second);
       }
   }
 
@@ -131,8 +134,10 @@ struct DepthIntegralsOf {
     // A sharp corner's own field climbs slowly; below this the quotient says nothing.
     constexpr Real kLeastSteepness = Real(0.25);
     const Real a = field_a.steepness(n), b = field_b.steepness(n);
-    return a >= b ? field_a.largest_depth / std::max(a, kLeastSteepness)
-                  : field_b.largest_depth / std::max(b, kLeastSteepness);
+    // Of a body within the other, flush with one of its faces, nothing lies below the other's surface.
+    const bool takes_a = field_b.largest_depth > 0 ? field_a.largest_depth > 0 && a >= b : true;
+    return takes_a ? field_a.largest_depth / std::max(a, kLeastSteepness)
+                   : field_b.largest_depth / std::max(b, kLeastSteepness);
   }
 
  private:

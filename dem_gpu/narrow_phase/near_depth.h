@@ -12,7 +12,7 @@ namespace dem_gpu {
 /// out if all vertices lie deeper below it than the deepest lies below another.
 struct NearDepth {
   static constexpr int kMostPlanes = 128;
-  ScratchArray<HalfSpace, kMostPlanes> plane;
+  ScratchArray<LocalHalfSpace, kMostPlanes> plane;
   int plane_count;
   int term_count;  // all of the solid's, or none if none is near
   bool is_truncated;
@@ -20,10 +20,10 @@ struct NearDepth {
 
 /// Depths of the shallowest and deepest vertex below a plane.
 struct DepthRange {
-  Real shallowest, deepest;
+  LocalReal shallowest, deepest;
 };
 
-TALUS_HD inline DepthRange depth_range(const HalfSpace& plane, const PartVertices& vertices) {
+TALUS_HD inline DepthRange depth_range(const LocalHalfSpace& plane, const PartVertices& vertices) {
   Lanes lowest = vertices.height_over(plane, 0), highest = lowest;
   for (int first = kLanes; first < vertices.padded_count; first += kLanes) {
     const Lanes height = vertices.height_over(plane, first);
@@ -34,30 +34,31 @@ TALUS_HD inline DepthRange depth_range(const HalfSpace& plane, const PartVertice
 }
 
 /// True if no plane of the term is deeper than `bound` all over a ball.
-TALUS_HD inline bool is_within(const DepthField& field, int term, const Vec3& centre, Real radius, Real bound) {
-  const HalfSpace* planes = field.term_planes + field.terms[term].first;
+TALUS_HD inline bool is_within(const DepthField& field, int term, const LocalVec3& centre, LocalReal radius,
+                               LocalReal bound) {
+  const LocalHalfSpace* planes = field.term_planes + field.terms[term].first;
   for (int i = 0; i < field.terms[term].count; ++i)
     if (depth_below(planes[i], centre) - radius > bound) return false;
   return true;
 }
 
 /// `centre`, `radius`: bounding sphere of the vertices, which settles the planes on the solid's far side.
-TALUS_HD inline void find_near_depth(const DepthField& field, const PartVertices& vertices, const Vec3& centre,
-                                     Real radius, NearDepth& near) {
-  ScratchArray<Real, NearDepth::kMostPlanes> shallowest;
+TALUS_HD inline void find_near_depth(const DepthField& field, const PartVertices& vertices, const LocalVec3& centre,
+                                     LocalReal radius, NearDepth& near) {
+  ScratchArray<LocalReal, NearDepth::kMostPlanes> shallowest;
   ScratchArray<std::int16_t, NearDepth::kMostPlanes> candidate;
   near.plane_count = near.term_count = 0;
   near.is_truncated = false;
   int nearest = 0;
-  Real nearest_depth = std::numeric_limits<Real>::max();
+  LocalReal nearest_depth = std::numeric_limits<LocalReal>::max();
   for (int i = 0; i < field.plane_count; ++i) {
     const Real depth = depth_below(field.planes[i], centre);
     if (depth < nearest_depth) nearest_depth = depth, nearest = i;
   }
-  Real bound = depth_range(field.planes[nearest], vertices).deepest;
+  LocalReal bound = depth_range(field.planes[nearest], vertices).deepest;
   int candidate_count = 0;
   for (int i = 0; i < field.plane_count; ++i) {
-    const HalfSpace plane = field.planes[i];
+    const LocalHalfSpace plane = field.planes[i];
     if (depth_below(plane, centre) - radius > bound) continue;
     const DepthRange range = depth_range(plane, vertices);
     if (range.deepest < bound) bound = range.deepest;

@@ -32,11 +32,11 @@ TALUS_HD inline FrameChange frame_change(const Pose& a, const Pose& b) {
 
 /// A body's depth field in one part: the least of the depths below planes and of the terms' greatest depths.
 struct DepthField {
-  const HalfSpace* planes;
+  const LocalHalfSpace* planes;
   int plane_count;
   const DepthTerm* terms;
   int term_count;
-  const HalfSpace* term_planes;
+  const LocalHalfSpace* term_planes;
 };
 
 /// One convex part with pointers into the shape columns.

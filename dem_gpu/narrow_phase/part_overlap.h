@@ -16,18 +16,18 @@ namespace dem_gpu {
 /// faces count once, and a face in another body's cut plane as if there were no cut.
 struct CoplanarRule {
   const PlaneSides& sides;
-  Real tolerance;  // [m]
-  bool is_closed;  // the solid is the closed one of the two
+  LocalReal tolerance;  // [m]
+  bool is_closed;       // the solid is the closed one of the two
 
   TALUS_HD bool keeps(const Polygon& face, bool is_inner_face, const PartView& solid) const {
     for (int k = 0; k < sides.coplanar_count; ++k) {
       const int f = sides.coplanar[k];
-      const HalfSpace plane = solid.planes[f];
+      const LocalHalfSpace plane = solid.planes[f];
       bool lies_in_plane = true;
       for (int c = 0; c < face.count && lies_in_plane; ++c)
         lies_in_plane = std::abs(dot(plane.normal, face.corner[c]) - plane.offset) <= tolerance;
       if (!lies_in_plane) continue;
-      const Vec3 area = cross(face.corner[1] - face.corner[0], face.corner[2] - face.corner[0]);
+      const LocalVec3 area = cross(face.corner[1] - face.corner[0], face.corner[2] - face.corner[0]);
       if (dot(plane.normal, area) < 0) return false;
       const bool is_inner_plane = f >= solid.range.outer_face_count;
       return is_inner_face == is_inner_plane ? is_closed : is_inner_plane;
@@ -92,8 +92,8 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
 
   PartVertices vertices_b, vertices_a;
   PlaneSides sides_b, sides_a;
-  const Real tolerance_a = kCoplanarity * (a.range.radius + b_to_a.scale * b.range.radius);
-  const Real tolerance_b = kCoplanarity * (b.range.radius + a_to_b.scale * a.range.radius);
+  const LocalReal tolerance_a = rounded(kCoplanarity * (a.range.radius + b_to_a.scale * b.range.radius));
+  const LocalReal tolerance_b = rounded(kCoplanarity * (b.range.radius + a_to_b.scale * a.range.radius));
   transform_vertices(b, b_to_a, vertices_b);
   const int face_a = classify(a, vertices_b, tolerance_a, sides_b);
   if (face_a >= 0) {
@@ -110,8 +110,10 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
   PartView solid_a = a, solid_b = b;
   NearDepth near_a, near_b;
   if constexpr (Integrals::kNeedsDepthPlanes) {
-    find_near_depth(a.depth, vertices_b, b_to_a.point(b.range.centre), b_to_a.scale * b.range.radius, near_a);
-    find_near_depth(b.depth, vertices_a, a_to_b.point(a.range.centre), a_to_b.scale * a.range.radius, near_b);
+    find_near_depth(a.depth, vertices_b, rounded(b_to_a.point(b.range.centre)), rounded(b_to_a.scale * b.range.radius),
+                    near_a);
+    find_near_depth(b.depth, vertices_a, rounded(a_to_b.point(a.range.centre)), rounded(a_to_b.scale * a.range.radius),
+                    near_b);
     if (near_a.is_truncated || near_b.is_truncated) return OverlapStatus::polygon_truncated;
     solid_a.depth.planes = near_a.plane.data();
     solid_a.depth.plane_count = near_a.plane_count;

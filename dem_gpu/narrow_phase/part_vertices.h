@@ -16,11 +16,10 @@ struct PartVertices {
   int padded_count;  // a multiple of kLanes
 
   /// Heights of kLanes vertices from `first` over a plane.
-  template <class Scalar>
-  TALUS_HD Lanes height_over(const BasicHalfSpace<Scalar>& plane, int first) const {
-    const LocalVec3 normal = rounded(plane.normal);
+  TALUS_HD Lanes height_over(const LocalHalfSpace& plane, int first) const {
+    const LocalVec3& normal = plane.normal;
     return normal.x * load_lanes(x.data() + first) + normal.y * load_lanes(y.data() + first) +
-           normal.z * load_lanes(z.data() + first) - static_cast<LocalReal>(plane.offset);
+           normal.z * load_lanes(z.data() + first) - plane.offset;
   }
   TALUS_HD LocalVec3 operator[](int v) const { return {x[v], y[v], z[v]}; }
 };

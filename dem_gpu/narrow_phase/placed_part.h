@@ -28,14 +28,15 @@ struct PlacedPart {
 /// counts where the part lies on the inner side, so once for two solids that share the plane. False if a polygon was
 /// truncated.
 template <class Visitor>
-TALUS_HD bool visit_part_inside(const PlacedPart& body, const HalfSpace* planes, int plane_count, Visitor&& visitor) {
+TALUS_HD bool visit_part_inside(const PlacedPart& body, const LocalHalfSpace* planes, int plane_count,
+                                Visitor&& visitor) {
   for (int p = 0; p < plane_count; ++p)
-    if (-depth_below(planes[p], body.centre) >= body.radius) return true;
+    if (-depth_below<Real>(planes[p], body.centre) >= body.radius) return true;
   PartRange range;
   range.face_count = plane_count;
   const PartView solid{range, nullptr, planes, nullptr, nullptr, {}};
   PlaneSides sides;
-  const Real tolerance = kCoplanarity * body.radius;
+  const LocalReal tolerance = rounded(kCoplanarity * body.radius);
   if (classify(solid, body.vertices, tolerance, sides) >= 0) return true;
   return visit_surface_inside(body.part, body.part.range.face_count, solid, body.vertices, sides,
                               {sides, tolerance, true}, visitor);

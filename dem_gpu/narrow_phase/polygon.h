@@ -25,21 +25,20 @@ TALUS_HD inline void append(Polygon& polygon, const LocalVec3& corner) {
     polygon.is_truncated = true;
 }
 
-/// The piece of `polygon` inside the half-space (its normal need not be a unit vector), computed in the half-space's
-/// precision. Sutherland & Hodgman, Commun. ACM 17 (1974) 32-42.
-template <class Scalar>
-TALUS_HD inline void clip(const Polygon& polygon, const BasicHalfSpace<Scalar>& half_space, Polygon& clipped) {
+/// The piece of `polygon` inside the half-space (its normal need not be a unit vector). Sutherland & Hodgman, Commun.
+/// ACM 17 (1974) 32-42.
+TALUS_HD inline void clip(const Polygon& polygon, const LocalHalfSpace& half_space, Polygon& clipped) {
   clipped.count = 0;
   clipped.is_truncated = polygon.is_truncated;
   if (polygon.count == 0) return;
-  Vector3<Scalar> previous = polygon.corner[polygon.count - 1];
-  Scalar previous_depth = depth_below(half_space, previous);
+  LocalVec3 previous = polygon.corner[polygon.count - 1];
+  LocalReal previous_depth = depth_below(half_space, previous);
   for (int c = 0; c < polygon.count; ++c) {
-    const Vector3<Scalar> current = polygon.corner[c];
-    const Scalar depth = depth_below(half_space, current);
+    const LocalVec3 current = polygon.corner[c];
+    const LocalReal depth = depth_below(half_space, current);
     if ((depth > 0 && previous_depth < 0) || (depth < 0 && previous_depth > 0))
-      append(clipped, rounded(previous + (previous_depth / (previous_depth - depth)) * (current - previous)));
-    if (depth >= 0) append(clipped, polygon.corner[c]);
+      append(clipped, previous + (previous_depth / (previous_depth - depth)) * (current - previous));
+    if (depth >= 0) append(clipped, current);
     previous = current;
     previous_depth = depth;
   }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "dem_gpu/narrow_phase/depth_profile.h"
+#include "dem_gpu/narrow_phase/moment_origin.h"
 #include "dem_gpu/narrow_phase/near_depth.h"
 #include "dem_gpu/narrow_phase/patch_sums.h"
 #include "dem_gpu/narrow_phase/polygon.h"
@@ -19,13 +20,17 @@ struct PolygonDepthOf {
   static constexpr bool kHasPatch = false;
 
   Profile profile{};
+  MomentOrigin origin{};  // of x
 
-  Real depth = 0;             // integral of psi dA [m3]
-  Vec3 depth_moment;          // integral of x psi dA [m4]
-  Vec3 descent;               // integral of minus the gradient of psi dA [m2]
-  Real area = 0;              // integral of d psi / d depth dA [m2]
-  Real largest = 0;           // largest depth at a corner [m]
+  LocalReal depth = 0;        // integral of psi dA [m3]
+  LocalVec3 depth_moment;     // integral of x psi dA [m4]
+  LocalVec3 descent;          // integral of minus the gradient of psi dA [m2]
+  LocalReal area = 0;         // integral of d psi / d depth dA [m2]
+  LocalReal largest = 0;      // largest depth at a corner [m]
   bool is_truncated = false;  // a corner of a piece did not fit
+
+  /// Integral of x psi dA about the centre of the frame [m4].
+  TALUS_HD Vec3 central_moment() const { return origin.first_about_centre(depth_moment, depth); }
 };
 using PolygonDepth = PolygonDepthOf<LinearProfile>;
 
@@ -34,24 +39,29 @@ template <class Profile>
 struct PolygonPatchDepthOf : PolygonDepthOf<Profile> {
   static constexpr bool kHasPatch = true;
 
-  Real aligned = 0;        // the share of psi dA that meets the field at right angles [m3]
-  Real second_moment = 0;  // integral of psi |x|^2 dA [m5]
+  LocalReal aligned = 0;        // the share of psi dA that meets the field at right angles [m3]
+  LocalReal second_moment = 0;  // integral of psi |x|^2 dA [m5]
+
+  /// Integral of psi |x|^2 dA about the centre of the frame [m5].
+  TALUS_HD Real central_second_moment() const {
+    return this->origin.second_about_centre(second_moment, this->depth_moment, this->depth);
+  }
 };
 
 /// Adds a polygon on which the depth is linear: closed form over the triangles of its fan.
 template <class Sum>
-TALUS_HD void add_linear_depth(const Polygon& polygon, const HalfSpace& plane, const Vec3& normal, Sum& sum) {
-  [[maybe_unused]] const Real depth_before = sum.depth;
+TALUS_HD void add_linear_depth(const Polygon& polygon, const LocalHalfSpace& plane, const LocalVec3& normal, Sum& sum) {
+  [[maybe_unused]] const LocalReal depth_before = sum.depth;
   DepthTriangle triangle;
-  triangle.a = polygon.corner[0];
-  triangle.depth_a = depth_below(plane, triangle.a);
-  triangle.b = polygon.corner[1];
-  triangle.depth_b = depth_below(plane, triangle.b);
+  triangle.a = sum.origin.to(polygon.corner[0]);
+  triangle.depth_a = depth_below(plane, polygon.corner[0]);
+  triangle.b = sum.origin.to(polygon.corner[1]);
+  triangle.depth_b = depth_below(plane, polygon.corner[1]);
   sum.largest = std::max(sum.largest, std::max(triangle.depth_a, triangle.depth_b));
   for (int c = 2; c < polygon.count; ++c) {
-    triangle.c = polygon.corner[c];
-    triangle.depth_c = depth_below(plane, triangle.c);
-    triangle.area = Real(0.5) * dot(cross(triangle.b - triangle.a, triangle.c - triangle.a), normal);
+    triangle.c = sum.origin.to(polygon.corner[c]);
+    triangle.depth_c = depth_below(plane, polygon.corner[c]);
+    triangle.area = LocalReal(0.5) * dot(cross(triangle.b - triangle.a, triangle.c - triangle.a), normal);
     const TriangleIntegrals integrals = sum.profile.integrate(triangle);
     sum.area += integrals.area;
     sum.descent += integrals.area * plane.normal;
@@ -62,7 +72,8 @@ TALUS_HD void add_linear_depth(const Polygon& polygon, const HalfSpace& plane, c
     triangle.b = triangle.c;
     triangle.depth_b = triangle.depth_c;
   }
-  if constexpr (Sum::kHasPatch) sum.aligned += aligned_share(-dot(normal, plane.normal)) * (sum.depth - depth_before);
+  if constexpr (Sum::kHasPatch)
+    sum.aligned += rounded(aligned_share(-dot(normal, plane.normal))) * (sum.depth - depth_before);
 }
 
 /// A polygon cut down step by step, between two buffers.
@@ -72,10 +83,10 @@ struct ShrinkingPolygon {
   int next = 0;
 
   /// Keeps what lies in the cell. A piece wholly on the cell's boundary stays only if `owns_ties`.
-  TALUS_HD void keep(const HalfSpace& cell, bool owns_ties) {
+  TALUS_HD void keep(const LocalHalfSpace& cell, bool owns_ties) {
     bool all_inside = true, all_outside = true;
     for (int c = 0; c < piece->count; ++c) {
-      const Real margin = depth_below(cell, piece->corner[c]);
+      const LocalReal margin = depth_below(cell, piece->corner[c]);
       if (margin < 0) all_inside = false;
       if (margin > 0 || (margin == 0 && owns_ties)) all_outside = false;
     }
@@ -95,25 +106,26 @@ inline constexpr int kMostPlanesOnPolygon = NearDepth::kMostPlanes + 64;
 inline constexpr int kMostTermsOnPolygon = 48, kMostTermPlanesOnPolygon = 160;
 
 /// Where the depth below `low` is at most that below `high`.
-TALUS_HD inline HalfSpace lower_side(const HalfSpace& low, const HalfSpace& high) {
+TALUS_HD inline LocalHalfSpace lower_side(const LocalHalfSpace& low, const LocalHalfSpace& high) {
   return {high.normal - low.normal, high.offset - low.offset};
 }
 
 /// Cuts a polygon into the pieces on which each of `planes` is the one it lies least deep below: visitor(piece, plane).
 /// One piece where one plane is least at all corners. The lower index owns a tie.
 template <class Visitor>
-TALUS_HD void visit_least_depth(const Polygon& polygon, const HalfSpace* planes, int plane_count, Visitor&& visitor) {
+TALUS_HD void visit_least_depth(const Polygon& polygon, const LocalHalfSpace* planes, int plane_count,
+                                Visitor&& visitor) {
   // A plane is no candidate if another one is below it at every corner: it suffices to compare with the plane whose
   // largest depth is least.
   constexpr int kLargest = kMostPlanesOnPolygon;
-  ScratchArray<Real, kLargest> smallest;
+  ScratchArray<LocalReal, kLargest> smallest;
   ScratchArray<std::int16_t, kLargest> candidate;
-  Real least_largest = std::numeric_limits<Real>::max();
+  LocalReal least_largest = std::numeric_limits<LocalReal>::max();
   int flattest = 0;
   for (int i = 0; i < plane_count; ++i) {
-    Real low = depth_below(planes[i], polygon.corner[0]), high = low;
+    LocalReal low = depth_below(planes[i], polygon.corner[0]), high = low;
     for (int c = 1; c < polygon.count; ++c) {
-      const Real depth = depth_below(planes[i], polygon.corner[c]);
+      const LocalReal depth = depth_below(planes[i], polygon.corner[c]);
       low = depth < low ? depth : low;
       high = depth > high ? depth : high;
     }
@@ -129,7 +141,7 @@ TALUS_HD void visit_least_depth(const Polygon& polygon, const HalfSpace* planes,
   }
   Polygon buffer[2];
   for (int k = 0; k < count; ++k) {
-    const HalfSpace own = planes[candidate[k]];
+    const LocalHalfSpace own = planes[candidate[k]];
     ShrinkingPolygon cell{&polygon, buffer};
     for (int m = 0; m < count && cell.piece; ++m)
       if (m != k) cell.keep(lower_side(own, planes[candidate[m]]), k < m);
@@ -139,9 +151,9 @@ TALUS_HD void visit_least_depth(const Polygon& polygon, const HalfSpace* planes,
 
 /// Adds the least depth below `planes` over a polygon.
 template <class Sum>
-TALUS_HD void add_least_depth(const Polygon& polygon, const HalfSpace* planes, int plane_count, const Vec3& normal,
-                              Sum& sum) {
-  visit_least_depth(polygon, planes, plane_count, [&](const Polygon& piece, const HalfSpace& plane) {
+TALUS_HD void add_least_depth(const Polygon& polygon, const LocalHalfSpace* planes, int plane_count,
+                              const LocalVec3& normal, Sum& sum) {
+  visit_least_depth(polygon, planes, plane_count, [&](const Polygon& piece, const LocalHalfSpace& plane) {
     if (piece.is_truncated) sum.is_truncated = true;
     add_linear_depth(piece, plane, normal, sum);
   });
@@ -149,16 +161,16 @@ TALUS_HD void add_least_depth(const Polygon& polygon, const HalfSpace* planes, i
 
 /// A depth field over one polygon: its planes, and the terms that change from one of their planes to another there.
 struct FieldOnPolygon {
-  ScratchArray<HalfSpace, kMostPlanesOnPolygon> plane;  // room for one a term at the end
+  ScratchArray<LocalHalfSpace, kMostPlanesOnPolygon> plane;  // room for one a term at the end
   int plane_count = 0;
   ScratchArray<DepthTerm, kMostTermsOnPolygon> term;
   int term_count = 0;
-  ScratchArray<HalfSpace, kMostTermPlanesOnPolygon> term_plane;
+  ScratchArray<LocalHalfSpace, kMostTermPlanesOnPolygon> term_plane;
   bool is_truncated = false;
 
   TALUS_HD FieldOnPolygon(const Polygon& polygon, const DepthField& field) {
     const Ball ball = ball_about(polygon);
-    const Real limit = greatest_possible(ball, field);
+    const LocalReal limit = greatest_possible(ball, field);
     for (int i = 0; i < field.plane_count; ++i)
       if (depth_below(field.planes[i], ball.centre) - ball.radius <= limit) plane[plane_count++] = field.planes[i];
     int used = 0;
@@ -173,25 +185,25 @@ struct FieldOnPolygon {
 
  private:
   struct Ball {
-    Vec3 centre;
-    Real radius;
+    LocalVec3 centre;
+    LocalReal radius;
   };
   TALUS_HD static Ball ball_about(const Polygon& polygon) {
-    Vec3 sum;
+    LocalVec3 sum;
     for (int c = 0; c < polygon.count; ++c) sum += polygon.corner[c];
-    const Vec3 centre = sum / static_cast<Real>(polygon.count);
-    Real square = 0;
-    for (int c = 0; c < polygon.count; ++c) square = std::max(square, norm_squared(Vec3(polygon.corner[c]) - centre));
+    const LocalVec3 centre = sum / static_cast<LocalReal>(polygon.count);
+    LocalReal square = 0;
+    for (int c = 0; c < polygon.count; ++c) square = std::max(square, norm_squared(polygon.corner[c] - centre));
     return {centre, std::sqrt(square)};
   }
 
   /// Deeper than this the field is nowhere in the ball: every depth changes by at most the distance.
-  TALUS_HD static Real greatest_possible(const Ball& ball, const DepthField& field) {
-    Real limit = std::numeric_limits<Real>::max();
+  TALUS_HD static LocalReal greatest_possible(const Ball& ball, const DepthField& field) {
+    LocalReal limit = std::numeric_limits<LocalReal>::max();
     for (int i = 0; i < field.plane_count; ++i) limit = std::min(limit, depth_below(field.planes[i], ball.centre));
     for (int t = 0; t < field.term_count; ++t) {
-      const HalfSpace* planes = field.term_planes + field.terms[t].first;
-      Real depth = depth_below(planes[0], ball.centre);
+      const LocalHalfSpace* planes = field.term_planes + field.terms[t].first;
+      LocalReal depth = depth_below(planes[0], ball.centre);
       for (int i = 1; i < field.terms[t].count && depth < limit; ++i)
         depth = std::max(depth, depth_below(planes[i], ball.centre));
       limit = std::min(limit, depth);
@@ -200,12 +212,13 @@ struct FieldOnPolygon {
   }
 
   /// True if plane k is nowhere on the polygon the greatest of the term; of equal ones the lowest index stays.
-  TALUS_HD static bool is_outdone(const Polygon& polygon, const HalfSpace* planes, int count, int k) {
+  TALUS_HD static bool is_outdone(const Polygon& polygon, const LocalHalfSpace* planes, int count, int k) {
     for (int i = 0; i < count; ++i) {
       if (i == k) continue;
       bool is_deeper = true;
       for (int c = 0; c < polygon.count && is_deeper; ++c) {
-        const Real own = depth_below(planes[k], polygon.corner[c]), other = depth_below(planes[i], polygon.corner[c]);
+        const LocalReal own = depth_below(planes[k], polygon.corner[c]),
+                        other = depth_below(planes[i], polygon.corner[c]);
         is_deeper = i < k ? other >= own : other > own;
       }
       if (is_deeper) return true;
@@ -214,7 +227,7 @@ struct FieldOnPolygon {
   }
 
   /// Returns how many term planes were taken up.
-  TALUS_HD int add_term(const Polygon& polygon, const HalfSpace* planes, int count, int first) {
+  TALUS_HD int add_term(const Polygon& polygon, const LocalHalfSpace* planes, int count, int first) {
     int kept = 0;
     for (int k = 0; k < count; ++k)
       if (!is_outdone(polygon, planes, count, k)) term_plane[first + kept++] = planes[k];
@@ -231,10 +244,11 @@ struct FieldOnPolygon {
 /// convex pieces on which each term is one plane: every choice of one plane a term is tried, dropping all choices that
 /// begin with one whose piece is empty.
 template <class Sum, class Profile>
-TALUS_HD Sum integrate_depth(const Polygon& polygon, const DepthField& field, const Vec3& normal,
+TALUS_HD Sum integrate_depth(const Polygon& polygon, const DepthField& field, const LocalVec3& normal,
                              const Profile& profile) {
   Sum sum;
   sum.profile = profile;
+  sum.origin = MomentOrigin::at(polygon.corner[0]);
   if (field.term_count == 0) {
     add_least_depth(polygon, field.planes, field.plane_count, normal, sum);
     return sum;
@@ -248,7 +262,7 @@ TALUS_HD Sum integrate_depth(const Polygon& polygon, const DepthField& field, co
     ShrinkingPolygon shrinking{&polygon, buffer};
     int level = 0;
     for (; level < here.term_count; ++level) {
-      const HalfSpace* planes = here.term_plane.data() + here.term[level].first;
+      const LocalHalfSpace* planes = here.term_plane.data() + here.term[level].first;
       const int chosen = choice[level];
       for (int k = 0; k < here.term[level].count && shrinking.piece; ++k)
         if (k != chosen) shrinking.keep(lower_side(planes[k], planes[chosen]), chosen < k);

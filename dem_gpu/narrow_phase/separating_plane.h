@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <type_traits>
 
 #include "dem_gpu/narrow_phase/part_vertices.h"
 
@@ -24,7 +23,7 @@ TALUS_HD inline bool lies_outside(const PartView& part, const HalfSpace& plane, 
 
 /// Planes within this distance, over the size of the two parts, count as one: above the rounding of vertices and planes
 /// (a few units in the last place), far below any overlap that matters.
-constexpr Real kCoplanarity = std::is_same_v<LocalReal, float> ? 1e-6 : 1e-12;
+constexpr Real kCoplanarity = local_tolerance(1e-12, 1e-6);
 
 /// On which side of the planes of a convex solid a set of vertices lies.
 struct PlaneSides {
@@ -37,7 +36,8 @@ struct PlaneSides {
 
 /// Sorts the vertices (in the solid's frame) by the solid's planes, after Cohen and Sutherland's outcodes. A vertex
 /// within `tolerance` [m] of a plane counts as inside. Returns a face whose plane has all vertices in front, or -1.
-TALUS_HD inline int classify(const PartView& solid, const PartVertices& vertices, Real tolerance, PlaneSides& sides) {
+TALUS_HD inline int classify(const PartView& solid, const PartVertices& vertices, LocalReal tolerance,
+                             PlaneSides& sides) {
   const std::uint64_t all = ~std::uint64_t{0} >> (64 - vertices.count);
   sides.plane_count = sides.coplanar_count = 0;
   int most_in_front = 0, best = 0;

@@ -5,6 +5,7 @@
 
 #include "dem_gpu/contacts/elastic_contact.h"
 #include "dem_gpu/narrow_phase/depth_profile.h"
+#include "dem_gpu/narrow_phase/moment_origin.h"
 #include "dem_gpu/narrow_phase/part_overlap.h"
 #include "dem_gpu/narrow_phase/patch_sums.h"
 
@@ -29,7 +30,7 @@ struct VolumeIntegralsOf {
   bool has_reference = false;
   Sums patch;  // of the area
 
-  TALUS_HD void add_surface_b(const Polygon& polygon, const HalfSpace& plane_b, bool is_outer, const PartView&,
+  TALUS_HD void add_surface_b(const Polygon& polygon, const LocalHalfSpace& plane_b, bool is_outer, const PartView&,
                               const FrameChange& b_to_a) {
     const LocalVec3 normal = rounded(b_to_a.direction(plane_b.normal));
     add_volume(polygon, normal);
@@ -37,18 +38,18 @@ struct VolumeIntegralsOf {
       if (is_outer) add_area(patch.side_b, polygon, normal, 1);
   }
 
-  TALUS_HD void add_surface_a(Polygon& polygon, const HalfSpace& plane_a, bool is_outer, const PartView&,
+  TALUS_HD void add_surface_a(Polygon& polygon, const LocalHalfSpace& plane_a, bool is_outer, const PartView&,
                               const FrameChange& b_to_a) {
     for (int c = 0; c < polygon.count; ++c) polygon.corner[c] = rounded(b_to_a.point(polygon.corner[c]));
-    const LocalVec3 normal = rounded(plane_a.normal);
+    const LocalVec3& normal = plane_a.normal;
     add_volume(polygon, normal);
     if constexpr (kHasPatch)
-      if (is_outer) add_area(patch.side_a, polygon, plane_a.normal, -1);
+      if (is_outer) add_area(patch.side_a, polygon, normal, -1);
     const LocalVec3 a = polygon.corner[0];
     for (int c = 2; c < polygon.count; ++c) {
       const LocalVec3 b = polygon.corner[c - 1], d = polygon.corner[c];
       const LocalReal triangle = dot(cross(b - a, d - a), normal) / 2;
-      area += triangle * plane_a.normal;
+      area += Real(triangle) * Vec3(normal);
       area_moment += Vec3(cross((triangle / 3) * (a + b + d), normal));
     }
   }
@@ -89,13 +90,16 @@ struct VolumeIntegralsOf {
 
  private:
   /// `sign`: the force on a points along b's normals and against a's.
-  TALUS_HD void add_area(PatchSide& side, const Polygon& polygon, const Vec3& normal, Real sign) {
-    const Vec3 a = polygon.corner[0];
+  TALUS_HD void add_area(PatchSide& side, const Polygon& polygon, const LocalVec3& normal, Real sign) {
+    const MomentOrigin origin = MomentOrigin::at(polygon.corner[0]);
+    const LocalVec3 a = origin.to(polygon.corner[0]);
     for (int c = 2; c < polygon.count; ++c) {
-      const Vec3 b = polygon.corner[c - 1], d = polygon.corner[c];
-      const Real triangle = Real(0.5) * dot(cross(b - a, d - a), normal);
-      patch.add(side, triangle, 0, sign * normal, (triangle / 3) * (a + b + d),
-                LinearProfile{}.second_moment({a, b, d, 1, 1, 1, triangle}));
+      const LocalVec3 b = origin.to(polygon.corner[c - 1]), d = origin.to(polygon.corner[c]);
+      const LocalReal triangle = LocalReal(0.5) * dot(cross(b - a, d - a), normal);
+      const LocalVec3 first = (triangle / 3) * (a + b + d);
+      const LocalReal second = LinearProfile{}.second_moment({a, b, d, 1, 1, 1, triangle});
+      patch.add(side, triangle, 0, sign * Vec3(normal), origin.first_about_centre(first, triangle),
+                origin.second_about_centre(second, first, triangle));
     }
   }
   TALUS_HD void add_volume(const Polygon& polygon, const LocalVec3& normal) {

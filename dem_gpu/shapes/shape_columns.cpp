@@ -17,7 +17,11 @@ using catalog::FaceKind;
 Vec3 to_vec3(const catalog::Point& p) { return {p[0], p[1], p[2]}; }
 
 LocalHalfSpace to_half_space(const ConvexFace& face) {
-  return {rounded(to_vec3(face.plane.normal)), static_cast<LocalReal>(face.plane.offset)};
+  return rounded(HalfSpace{to_vec3(face.plane.normal), face.plane.offset});
+}
+
+void append(std::vector<LocalHalfSpace>& planes, const std::vector<HalfSpace>& more) {
+  for (const HalfSpace& plane : more) planes.push_back(rounded(plane));
 }
 
 PartRange append_part(HostShapeColumns& columns, const ConvexPart& part) {
@@ -53,14 +57,14 @@ PartRange append_part(HostShapeColumns& columns, const ConvexPart& part) {
 
 void append_depth_field(HostShapeColumns& columns, const PartDepthField& field, Real cap, PartRange& part) {
   part.first_depth_plane = static_cast<int>(columns.depth_planes.size());
-  columns.depth_planes.insert(columns.depth_planes.end(), field.planes.begin(), field.planes.end());
-  columns.depth_planes.push_back({Vec3{0, 0, 0}, cap});
+  append(columns.depth_planes, field.planes);
+  columns.depth_planes.push_back(rounded(HalfSpace{{0, 0, 0}, cap}));
   part.depth_plane_count = static_cast<int>(columns.depth_planes.size()) - part.first_depth_plane;
   part.first_depth_term = static_cast<int>(columns.depth_terms.size());
   part.depth_term_count = static_cast<int>(field.greatest.size());
   for (const GreatestDepth& term : field.greatest) {
     columns.depth_terms.push_back({static_cast<int>(columns.term_planes.size()), static_cast<int>(term.size())});
-    columns.term_planes.insert(columns.term_planes.end(), term.begin(), term.end());
+    append(columns.term_planes, term);
   }
 }
 

@@ -29,6 +29,12 @@ TALUS_HD inline Scalar depth_below(const BasicHalfSpace<Scalar>& plane,
   return plane.offset - dot(plane.normal, x);
 }
 
+TALUS_HD inline const LocalHalfSpace& rounded(const LocalHalfSpace& plane) { return plane; }
+template <class Wide>
+requires(sizeof(Wide) > sizeof(LocalReal)) TALUS_HD inline LocalHalfSpace rounded(const BasicHalfSpace<Wide>& plane) {
+  return {rounded(plane.normal), static_cast<LocalReal>(plane.offset)};
+}
+
 struct PartRange {
   int first_vertex = 0, vertex_count = 0;
   int first_face = 0, face_count = 0;  // outer faces first
@@ -70,9 +76,9 @@ struct ShapeColumns {
   DeviceVector<FaceCorners> faces;      // n_faces
   DeviceVector<std::uint8_t> corners;   // vertex of the part, per corner of a face
   // The body's depth field in a part: the least of the depths below depth_planes and of the depth terms.
-  DeviceVector<HalfSpace> depth_planes;
+  DeviceVector<LocalHalfSpace> depth_planes;
   DeviceVector<DepthTerm> depth_terms;
-  DeviceVector<HalfSpace> term_planes;
+  DeviceVector<LocalHalfSpace> term_planes;
 };
 
 /// The same on the host, for checks and tests.
@@ -83,9 +89,9 @@ struct HostShapeColumns {
   std::vector<LocalHalfSpace> planes;
   std::vector<FaceCorners> faces;
   std::vector<std::uint8_t> corners;
-  std::vector<HalfSpace> depth_planes;
+  std::vector<LocalHalfSpace> depth_planes;
   std::vector<DepthTerm> depth_terms;
-  std::vector<HalfSpace> term_planes;
+  std::vector<LocalHalfSpace> term_planes;
 };
 
 struct ShapeView {
@@ -95,9 +101,9 @@ struct ShapeView {
   const LocalHalfSpace* planes;
   const FaceCorners* faces;
   const std::uint8_t* corners;
-  const HalfSpace* depth_planes;
+  const LocalHalfSpace* depth_planes;
   const DepthTerm* depth_terms;
-  const HalfSpace* term_planes;
+  const LocalHalfSpace* term_planes;
 };
 
 /// `depth_cap` in equivalent diameters: a constant term of every depth field; nullopt: no depth fields.

@@ -18,7 +18,7 @@ namespace {
 
 /// Shallower overlaps are rounding of faces that touch, and hold no energy to speak of: its share of a contact's goes
 /// with the square of this. In least widths.
-constexpr Real kLeastDepth = Real(1e-9);
+constexpr Real kLeastDepth = local_tolerance(1e-9, 1e-6);
 
 /// Two bodies, or a body and a wall, of the scene.
 struct StartPair {

@@ -20,9 +20,9 @@ TALUS_HD bool integrate_part_in_disc(const PlacedPart& body, const Vec3& body_ce
   constexpr Real kTurn = 2 * std::numbers::pi_v<Real> / kDiscSides;
   const Vec3 to_centre = wall.point - body_centre;
   const auto plane = [&](const Vec3& normal, Real from_centre) {
-    return HalfSpace{normal, dot(normal, to_centre) + from_centre};
+    return rounded(HalfSpace{normal, dot(normal, to_centre) + from_centre});
   };
-  ScratchArray<HalfSpace, kDiscSides + 2> planes;
+  ScratchArray<LocalHalfSpace, kDiscSides + 2> planes;
   const Real apothem = wall.base_radius * std::sqrt(std::numbers::pi_v<Real> / (kDiscSides * std::tan(kTurn / 2)));
   const Vec3 side = rotate(wall.orientation, wall.side), other = cross(wall.direction, side);
   int count = 0;
@@ -33,7 +33,7 @@ TALUS_HD bool integrate_part_in_disc(const PlacedPart& body, const Vec3& body_ce
   const int field_planes = wall.thickness > 0 ? count : 1;
   bool is_whole = true;
   const bool is_clipped = visit_part_inside(body, planes.data(), count, [&](const Polygon& polygon, int face) {
-    visit_least_depth(polygon, planes.data(), field_planes, [&](const Polygon& piece, const HalfSpace& nearest) {
+    visit_least_depth(polygon, planes.data(), field_planes, [&](const Polygon& piece, const LocalHalfSpace& nearest) {
       is_whole &= !piece.is_truncated;
       integrals.add_polygon(piece, nearest, body.face_normal(face), face < body.part.range.outer_face_count);
     });

@@ -153,10 +153,10 @@ class RoundFace {
       area += share * integrals.profile.slope(below);
     }
     if (!(depth > 0)) return;
-    const TriangleIntegrals piece{depth, depth * least_.point + first * x, area};
     const Real square =
         depth * norm_squared(least_.point) + 2 * first * dot(least_.point, x) + second * norm_squared(x);
-    integrals.add_piece(piece, square, normal_, round_.normal_at(ray.radial_at(first / depth)), is_outer_);
+    const WallPiece piece{depth, depth * least_.point + first * x, area, square};
+    integrals.add_piece(piece, normal_, round_.normal_at(ray.radial_at(first / depth)), is_outer_);
   }
 
   const RoundSurface& round_;
@@ -186,7 +186,8 @@ TALUS_HD bool integrate_part_on_round_wall(const PartView& part, const Pose& pos
   if (wall_field(wall, centre).depth + radius <= 0) return true;
   const RoundSurface round(wall, pose.position);
   const Vec3 top = round.point + wall.length * round.axis;
-  const HalfSpace ends[2] = {{-round.axis, -dot(round.axis, round.point)}, {round.axis, dot(round.axis, top)}};
+  const LocalHalfSpace ends[2] = {rounded(HalfSpace{-round.axis, -dot(round.axis, round.point)}),
+                                  rounded(HalfSpace{round.axis, dot(round.axis, top)})};
   const Real largest = std::max(wall.base_radius, wall.top_radius);
   Polygon buffer[2];
   for (int f = 0; f < part.range.face_count; ++f) {
@@ -198,7 +199,7 @@ TALUS_HD bool integrate_part_on_round_wall(const PartView& part, const Pose& pos
     placed_face(part, pose, f, buffer[0]);
     int current = 0;
     if (wall.kind != WallKind::sphere)
-      for (const HalfSpace& end : ends) {
+      for (const LocalHalfSpace& end : ends) {
         bool is_past = false;
         for (int c = 0; c < buffer[current].count; ++c) is_past |= depth_below(end, buffer[current].corner[c]) < 0;
         if (!is_past) continue;

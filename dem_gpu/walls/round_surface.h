@@ -107,7 +107,7 @@ TALUS_HD inline GapPoint least_gap(const RoundSurface& round, const Polygon& fac
   const Vec3 direction = is_ball ? normal : round.axis;
   const Real along = dot(normal, direction);
   const Vec3 middle =
-      along != 0 ? round.point + (dot(normal, face.corner[0] - round.point) / along) * direction : Vec3{};
+      along != 0 ? round.point + (dot(normal, Vec3(face.corner[0]) - round.point) / along) * direction : Vec3{};
   bool is_pierced = along != 0;
   Vec3 from = face.corner[face.count - 1];
   for (int i = 0; i < face.count; ++i) {

@@ -13,8 +13,16 @@ namespace dem_gpu {
 
 /// Corner of a triangle with the depth below a plane there, position relative to the body's centre.
 struct WallSample {
-  Vec3 position;
-  Real depth = 0;  // [m]
+  LocalVec3 position;
+  LocalReal depth = 0;  // [m]
+};
+
+/// Integrals over a small piece of the body's surface, about `centre`.
+struct WallPiece {
+  Real depth;          // of psi [m3]
+  Vec3 depth_moment;   // of x psi [m4]
+  Real area;           // of d psi / d depth [m2]
+  Real second_moment;  // of psi |x|^2, with friction [m5]
 };
 
 /// Integrals of a wall's depth over the part of a body's surface inside the wall (all faces of its parts, see
@@ -54,31 +62,26 @@ struct WallIntegralsOf {
   }
 
   /// A polygon in the wall's depth below one plane, in the axes and about the point that the sums are in.
-  TALUS_HD void add_polygon(const Polygon& polygon, const HalfSpace& plane, const Vec3& normal, bool is_outer) {
+  TALUS_HD void add_polygon(const Polygon& polygon, const LocalHalfSpace& plane, const Vec3& normal, bool is_outer) {
     std::conditional_t<kHasPatch, PolygonPatchDepthOf<Profile>, PolygonDepthOf<Profile>> sum;
     sum.profile = profile;
-    add_linear_depth(polygon, plane, normal, sum);
-    force -= sum.depth * normal;
-    moment -= cross(sum.depth_moment, normal);
-    area += sum.area * normal;
-    if (!is_outer) return;
-    weight += sum.depth;
-    weighted_point += sum.depth_moment;
-    largest_depth = std::max(largest_depth, sum.largest);
-    if constexpr (kHasPatch) patch.add(sum.depth, normal, plane.normal, sum.second_moment);
+    sum.origin = MomentOrigin::at(polygon.corner[0]);
+    add_linear_depth(polygon, plane, rounded(normal), sum);
+    WallPiece piece{sum.depth, sum.central_moment(), sum.area, 0};
+    if constexpr (kHasPatch) piece.second_moment = sum.central_second_moment();
+    if (is_outer) reach(sum.largest);
+    add_piece(piece, normal, plane.normal, is_outer);
   }
 
-  /// A small piece of the body's surface: its integrals about `centre`, its integral of psi |x|^2 and the wall's normal
-  /// there.
-  TALUS_HD void add_piece(const TriangleIntegrals& piece, Real second_moment, const Vec3& normal, const Vec3& along,
-                          bool is_outer) {
+  /// `along`: the wall's normal there.
+  TALUS_HD void add_piece(const WallPiece& piece, const Vec3& normal, const Vec3& along, bool is_outer) {
     force -= piece.depth * normal;
     moment -= cross(piece.depth_moment, normal);
     area += piece.area * normal;
     if (!is_outer) return;
     weight += piece.depth;
     weighted_point += piece.depth_moment;
-    if constexpr (kHasPatch) patch.add(piece.depth, normal, along, second_moment);
+    if constexpr (kHasPatch) patch.add(piece.depth, normal, along, piece.second_moment);
   }
   TALUS_HD void reach(Real depth) { largest_depth = std::max(largest_depth, depth); }
 
@@ -111,18 +114,22 @@ struct WallIntegralsOf {
   }
 
  private:
-  TALUS_HD static WallSample between(const WallSample& a, const WallSample& b, Real t) {
+  TALUS_HD static WallSample between(const WallSample& a, const WallSample& b, LocalReal t) {
     return {a.position + t * (b.position - a.position), a.depth + t * (b.depth - a.depth)};
   }
   TALUS_HD void add_linear(const WallSample& a, const WallSample& b, const WallSample& c, const Vec3& normal,
                            const Vec3& along, bool is_outer) {
-    const Real triangle = Real(0.5) * dot(cross(b.position - a.position, c.position - a.position), normal);
-    const DepthTriangle corners{a.position, b.position, c.position, a.depth, b.depth, c.depth, triangle};
-    const TriangleIntegrals piece = profile.integrate(corners);
+    const MomentOrigin origin = MomentOrigin::at(a.position);
+    const LocalReal triangle =
+        LocalReal(0.5) * dot(cross(b.position - a.position, c.position - a.position), rounded(normal));
+    const DepthTriangle corners{
+        origin.to(a.position), origin.to(b.position), origin.to(c.position), a.depth, b.depth, c.depth, triangle};
+    const TriangleIntegrals sum = profile.integrate(corners);
     if (is_outer) reach(std::max(a.depth, std::max(b.depth, c.depth)));
-    Real second_moment = 0;
-    if constexpr (kHasPatch) second_moment = profile.second_moment(corners);
-    add_piece(piece, second_moment, normal, along, is_outer);
+    WallPiece piece{sum.depth, origin.first_about_centre(sum.depth_moment, sum.depth), sum.area, 0};
+    if constexpr (kHasPatch)
+      piece.second_moment = origin.second_about_centre(profile.second_moment(corners), sum.depth_moment, sum.depth);
+    add_piece(piece, normal, along, is_outer);
   }
 };
 
@@ -138,7 +145,7 @@ TALUS_HD void integrate_part_in_plane(const PartView& part, const Pose& pose, co
   bool touches = false;
   for (int v = 0; v < part.range.vertex_count; ++v) {
     const Vec3 relative = pose.scale * (pose.rotation * part.vertices[v]);
-    vertices[v] = {relative, wall_field(wall, pose.position + relative).depth};
+    vertices[v] = {rounded(relative), rounded(wall_field(wall, pose.position + relative).depth)};
     touches |= vertices[v].depth > 0;
   }
   if (!touches) return;

@@ -62,7 +62,7 @@ TEST(DecompositionInvariance, CubeOfOneTwoAndEightParts) {
                                  corner(whole, 0)));
       std::printf("  cube of 1, 2, 8 parts, %-7s on %-5s: paths within %.1e of the edge\n", attitude.name,
                   grounds[ground], worst / kEdge);
-      EXPECT_LT(worst, 1e-9 * kEdge) << attitude.name << " on " << grounds[ground];
+      EXPECT_LT(worst, (1e-9 + kSingle.path) * kEdge) << attitude.name << " on " << grounds[ground];
     }
 }
 
@@ -94,8 +94,8 @@ TEST(DecompositionInvariance, LCutInTwoWays) {
   const double on_plane = norm(fall(three, false) - fall(ten, false)) / kEdge;
   const double on_block = norm(fall(three, true) - fall(ten, true)) / kEdge;
   std::printf("  L of 3 and 10 parts: on a plane within %.1e of the edge, on a block %.1e\n", on_plane, on_block);
-  EXPECT_LT(on_plane, 1e-9);
-  EXPECT_LT(on_block, 1e-9);
+  EXPECT_LT(on_plane, 1e-9 + kSingle.path);
+  EXPECT_LT(on_block, 1e-9 + kSingle.path);
 }
 
 TEST(DecompositionInvariance, CubeSlidesOverASeam) {
@@ -116,8 +116,9 @@ TEST(DecompositionInvariance, CubeSlidesOverASeam) {
   };
   const auto whole = slide({1, 1, 1}, {1, 1, 1}), cut = slide({4, 4, 2}, {2, 2, 2});
   EXPECT_NEAR(cut.velocity[1].x, 0.3, 1e-4);
-  EXPECT_LT(norm(cut.position[1] - whole.position[1]), 1e-9 * kEdge);
-  EXPECT_LT(norm(cut.velocity[1] - whole.velocity[1]), 1e-9);
+  EXPECT_LT(norm(cut.position[1] - whole.position[1]), (1e-9 + kSingle.path) * kEdge);
+  // The probe rings on its contact at 2000 rad/s.
+  EXPECT_LT(norm(cut.velocity[1] - whole.velocity[1]), 1e-9 + kSingle.path * kEdge * 2000);
 }
 
 /// Two cuts of one body.
@@ -143,7 +144,8 @@ double worst_change(const PairIntegrals& one, const PairIntegrals& other, const 
   const auto first = one.of<dem_gpu::DepthIntegrals>(a, b), second = other.of<dem_gpu::DepthIntegrals>(a, b);
   EXPECT_FALSE(first.is_truncated || second.is_truncated);
   const double force = norm(first.force);
-  if (!(force > 1e-6)) return 0;  // grazing: below a ten thousandth of a flat contact's
+  // Grazing: below a ten thousandth of a flat contact's, or too little to be known to kSingle.relative.
+  if (!(force > 1e-6 + (kIsMixed ? kSingle.integral / kSingle.relative : 0))) return 0;
   return std::max(norm(first.force - second.force), norm(first.moment - second.moment)) / force;
 }
 
@@ -169,8 +171,8 @@ TEST(DecompositionInvariance, ForceOnANonConvexBodyCutInTwoWays) {
     std::printf("  %-20s force and torque change by %.1e against a cube (%d touch), %.1e against itself\n", body.name,
                 against_cube, touching, against_itself);
     EXPECT_GT(touching, 100) << body.name;
-    EXPECT_LT(against_cube, 1e-10) << body.name;
-    EXPECT_LT(against_itself, 1e-10) << body.name;
+    EXPECT_LT(against_cube, 1e-10 + kSingle.relative) << body.name;
+    EXPECT_LT(against_itself, 1e-10 + kSingle.relative) << body.name;
   }
 }
 
@@ -220,7 +222,7 @@ TEST(DecompositionInvariance, HookedUsHold) {
     EXPECT_LT(rise, 0.3) << "the gap of 0.05, and what their play lets them tilt";
     return simulation.snapshot().position[0];
   };
-  EXPECT_LT(norm(pull(coarse) - pull(fine)), 1e-9);
+  EXPECT_LT(norm(pull(coarse) - pull(fine)), 1e-9 + 3 * kSingle.path) << "bodies three long";
 }
 
 }  // namespace

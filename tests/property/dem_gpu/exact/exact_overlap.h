@@ -20,9 +20,7 @@ struct Body {
   dem_gpu::BodyPose pose;
 };
 
-/// Up to this factor between relative changes of input and result, results are compared as they stand. Rounding the
-/// input to 1e-16 (single: 6e-8) alone then costs 1e-12 (6e-6); beyond, the error allowed grows with the factor.
-inline constexpr double kConditioned = test_support::kIsMixed ? 1e2 : 1e4;
+using test_support::kConditioned;
 
 /// World axes; moments about a's position. Flush faces (see below) count as b's.
 struct Overlap {

@@ -233,17 +233,17 @@ TEST(PolygonClip, KeepsTheAreaInside) {
       sum += 0.5 * cross(polygon.corner[c - 1] - polygon.corner[0], polygon.corner[c] - polygon.corner[0]).z;
     return sum;
   };
-  clip(square, HalfSpace{{1, 0, 0}, 0.3}, piece);
+  clip(square, rounded(HalfSpace{{1, 0, 0}, 0.3}), piece);
   EXPECT_NEAR(area(piece), 0.3, 1e-15 + kSingle.position);
-  clip(square, HalfSpace{{2, 2, 0}, 2}, piece);  // the normal need not be a unit vector
+  clip(square, rounded(HalfSpace{{2, 2, 0}, 2}), piece);  // the normal need not be a unit vector
   EXPECT_NEAR(area(piece), 0.5, 1e-15);
   EXPECT_EQ(piece.count, 3);
-  clip(square, HalfSpace{{1, 0, 0}, 1}, piece);
+  clip(square, rounded(HalfSpace{{1, 0, 0}, 1}), piece);
   EXPECT_NEAR(area(piece), 1, 1e-15) << "a plane through an edge takes nothing away";
   EXPECT_EQ(piece.count, 4);
-  clip(square, HalfSpace{{1, 0, 0}, 0}, piece);
+  clip(square, rounded(HalfSpace{{1, 0, 0}, 0}), piece);
   EXPECT_EQ(piece.count, 0) << "only an edge is left";
-  clip(square, HalfSpace{{1, 0, 0}, -1}, piece);
+  clip(square, rounded(HalfSpace{{1, 0, 0}, -1}), piece);
   EXPECT_EQ(piece.count, 0);
 }
 

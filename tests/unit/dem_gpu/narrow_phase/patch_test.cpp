@@ -89,8 +89,10 @@ TEST(Patch, InnerCornerLoadsBothItsFaces) {
     const Quaternion turn = random_rotation(random);
     const Vec3 shift{3, -2, 1};
     const Found moved = find(pair, {shift + rotate(turn, {0, 0, -0.015 - 1e-5}), turn}, {shift, turn});
-    EXPECT_NEAR(moved.patch.load / found.patch.load, 1, 1e-9);
-    expect_same(moved.patch.normals, rotated(found.patch.normals, rotation_matrix(turn)), 1e-9);
+    // The poses are rounded anew; the block's reach is 0.05, its depth 1e-5.
+    EXPECT_NEAR(moved.patch.load / found.patch.load, 1, 1e-9 + kSingle.position * 0.05 / 1e-5);
+    expect_same(moved.patch.normals, rotated(found.patch.normals, rotation_matrix(turn)),
+                1e-9 + kSingle.position * 0.05 / 1e-5);
   }
 }
 
@@ -105,14 +107,15 @@ TEST(Patch, SecondMomentOfATriangle) {
         for (int upper = 0; upper < (i + j < n - 1 ? 2 : 1); ++upper) {
           const Real u = (i + (upper + 1) / Real(3)) / n, v = (j + (upper + 1) / Real(3)) / n, w = 1 - u - v;
           const Real depth = u * t.depth_a + v * t.depth_b + w * t.depth_c;
-          sum += depth * (1 + rate * depth) * norm_squared(u * t.a + v * t.b + w * t.c);
+          sum += depth * (1 + rate * depth) * norm_squared(u * Vec3(t.a) + v * Vec3(t.b) + w * Vec3(t.c));
         }
     return t.area * sum / (Real(n) * n);
   };
   EXPECT_NEAR(dem_gpu::LinearProfile{}.second_moment(t) / by_pieces(0), 1, 1e-5);
   for (const Real rate : {0., 2., 30.})
-    EXPECT_NEAR(dem_gpu::HardeningProfile{rate}.second_moment(t) / by_pieces(rate), 1, 1e-5);
-  EXPECT_NEAR(dem_gpu::HardeningProfile{0}.second_moment(t), dem_gpu::LinearProfile{}.second_moment(t), 1e-14);
+    EXPECT_NEAR(dem_gpu::HardeningProfile{dem_gpu::rounded(rate)}.second_moment(t) / by_pieces(rate), 1, 1e-5);
+  EXPECT_NEAR(dem_gpu::HardeningProfile{0}.second_moment(t), dem_gpu::LinearProfile{}.second_moment(t),
+              1e-14 + kSingle.integral);
 }
 
 }  // namespace

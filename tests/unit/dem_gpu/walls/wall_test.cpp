@@ -110,18 +110,18 @@ TEST(WallIntegrals, ClosedFormsOfACubeOnAPlane) {
   const WallRecord plane = record_of(dem_gpu::Plane{{0, 0, 0}, {0, 0, 1}});
   const Real d = 0.01;
   const auto flat = integrate({unit_cube()}, {{0, 0, 0.5 - d}, {}}, plane);
-  EXPECT_NEAR(flat.force.z, d, 1e-15);
-  EXPECT_NEAR(norm(flat.area), 1, 1e-12);
-  EXPECT_NEAR(flat.largest_depth, d, 1e-15);
+  EXPECT_NEAR(flat.force.z, d, 1e-15 + kSingle.position * d);
+  EXPECT_NEAR(norm(flat.area), 1, 1e-12 + kSingle.position);
+  EXPECT_NEAR(flat.largest_depth, d, 1e-15 + kSingle.position * d);
   const auto edge = integrate({unit_cube()}, {{0, 0, std::sqrt(0.5) - d}, edge_down()}, plane);
-  EXPECT_NEAR(edge.force.z / (d * d), 1, 1e-11);
+  EXPECT_NEAR(edge.force.z / (d * d), 1, 1e-11 + 2 * kSingle.position / d);
   const auto vertex = integrate({unit_cube()}, {{0, 0, std::sqrt(0.75) - d}, vertex_down()}, plane);
-  EXPECT_NEAR(vertex.force.z / (std::sqrt(0.75) * d * d * d), 1, 1e-9);
+  EXPECT_NEAR(vertex.force.z / (std::sqrt(0.75) * d * d * d), 1, 1e-9 + 3 * kSingle.position / d);
   // Eight parts: the same, inner faces do not count.
   const auto cut = integrate(cut_box({1, 1, 1}, {2, 2, 2}), {{0, 0, 0.5 - d}, {}}, plane);
-  EXPECT_LT(norm(cut.force - flat.force), 1e-15);
+  EXPECT_LT(norm(cut.force - flat.force), 1e-15 + kSingle.position * d);
   // At twice the scale and a quarter of the attitude's symmetry the force is that of the larger face.
-  EXPECT_NEAR(integrate({unit_cube()}, {{0, 0, 1 - d}, {}, 2}, plane).force.z, 4 * d, 1e-14);
+  EXPECT_NEAR(integrate({unit_cube()}, {{0, 0, 1 - d}, {}, 2}, plane).force.z, 4 * d, 1e-14 + 4 * kSingle.position * d);
 }
 
 TEST(WallMotion, RampsAndTurns) {
@@ -236,8 +236,10 @@ TEST(WallIntegrals, DiscSmallerThanAFaceIsMet) {
   const Vec3 centre{0, 0, 0.5 - d};
   WallIntegrals integrals;
   ASSERT_TRUE(integrate_part_in_disc(dem_gpu::PlacedPart(part, {}), centre, disc, integrals));
-  EXPECT_NEAR(integrals.force.z, M_PI * 0.04 * d, 1e-12) << "the rim's polygon has the disc's area";
-  EXPECT_LT(norm(integrals.moment - cross(Vec3{0.1, 0.05, 0}, integrals.force)), 1e-12);
+  EXPECT_NEAR(integrals.force.z, M_PI * 0.04 * d, 1e-12 + kSingle.position * M_PI * 0.04)
+      << "the rim's polygon has the disc's area";
+  EXPECT_LT(norm(integrals.moment - cross(Vec3{0.1, 0.05, 0}, integrals.force)),
+            1e-12 + kSingle.position * M_PI * 0.04);
 }
 
 TEST(WallSurface, BallInsideAndOutside) {
