@@ -16,8 +16,9 @@ namespace dem_gpu {
 //   forget(contacts, c)                   ends its history
 
 /// Depth of a contact that has just begun over the way of approach in a step, at most. Above 1 by the turn of the
-/// normal during a step: bodies that touch deeper than they came were placed so.
-inline constexpr Real kTouchMargin = Real(1.1);
+/// normal during a step: bodies that touch deeper than they came were placed so. In single precision a first touch
+/// within rounding goes unseen for a step.
+inline constexpr Real kTouchMargin = local_tolerance(Real(1.1), Real(2));
 
 /// What a damping policy sees of a touching contact besides the elastic force.
 struct NormalImpact {
