@@ -80,7 +80,7 @@ struct PatchFriction {
     contacts.turning_displacement[c] = springs.spin;
     contacts.spring_normal[c] = normal;
 
-    const Real ratio = std::min(contact.pair.damping_ratio, kLargestRatio);
+    const Real ratio = std::min(contact.pair.damping_ratio, Real(kLargestRatio));
     const Real damping = dashpot(ratio, contact.effective_mass, stiffness) / stiffness;  // [s]
     PatchSprings rate{damping * patch.slip(contact.predicted.velocity),
                       (damping * patch.lever) * patch.spin(contact.predicted.angular_velocity)};
