@@ -31,8 +31,8 @@ struct EnergyLedger {
   double dissipated() const;
   /// initial + wall_work - (kinetic + gravitational + elastic + removed + dissipated).
   double imbalance() const;
-  /// What the balance is compared with: the energy put in so far, i.e. |initial| + energy released by gravity +
-  /// positive wall work [J].
+  /// What the balance is compared with: the most energy put in so far, i.e. |initial| + energy released by gravity +
+  /// positive wall work, now or when bodies were listed anew before [J].
   double throughput = 0;
 };
 

@@ -65,8 +65,8 @@ std::vector<std::string> run_warnings(const AssembledScene& assembled, const Sce
                        "; a finer preset or stiffer contacts (a higher at_speed) would mend it");
   if (description.stiffness.largest_overlap && quality.largest_overlap > *description.stiffness.largest_overlap)
     warnings.push_back(
-        formatted("the largest overlap was %.4g %% of a body's diameter, at a corner or edge most likely; the %.4g %% "
-                  "asked for hold for a flat strike at at_speed; state a higher at_speed for stiffer grains",
+        formatted("the largest overlap was %.4g %% of a body's diameter; the %.4g %% asked for hold at "
+                  "at_speed, for polyhedra in a flat strike; state a higher at_speed for stiffer grains",
                   100 * quality.largest_overlap, 100 * *description.stiffness.largest_overlap));
   return warnings;
 }

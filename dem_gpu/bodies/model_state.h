@@ -50,6 +50,7 @@ struct Accounts {
   double initial_gravitational = 0;                      // [J]
   double removed_energy = 0;                             // all that left with removed bodies [J]
   double removed_gravitational = 0;                      // its gravitational part [J]
+  double largest_throughput = 0;                         // of the ledger, at the times bodies were listed anew [J]
   double largest_overlap = 0;                            // [-]
   double largest_rate = 0;                               // stiffness / effective mass [1/s2]
   std::int64_t list_rebuilds = 0;

@@ -258,7 +258,7 @@ class NeighbourList : public Pass {
     // Two bodies may each have come half a skin closer; a wall's own motion takes its share.
     const bool is_worn = 2 * moved + state.walls.largest_displacement(state.listed_time, time) > model.skin;
     if (!is_worn && !state.list_is_stale) return;
-    refuse_created_energy(model, state);
+    watch_energy(model, state);
     refuse_pushed_through(model, state);
     build_neighbour_list(model, state);
   }

@@ -100,7 +100,9 @@ EnergyLedger make_ledger(const Model& model, const State& state) {
   // What bodies lost by leaving is not what gravity gave them: wherever the origin lies, it counts down to where they
   // left.
   const double released = -ledger.gravitational - accounts.removed_gravitational;
-  ledger.throughput = ledger.initial + std::max(0.0, released) + std::max(0.0, ledger.wall_work);
+  // Bodies that bounce back, and walls that take their work back, leave little of it in the end.
+  ledger.throughput =
+      std::max(accounts.largest_throughput, ledger.initial + std::max(0.0, released) + std::max(0.0, ledger.wall_work));
   return ledger;
 }
 

@@ -68,9 +68,10 @@ std::string step_place(const Model& model, const State& state) {
   return place;
 }
 
-void refuse_created_energy(const Model& model, const State& state) {
+void watch_energy(const Model& model, State& state) {
   if (!model.features.has_ledger) return;
   const EnergyLedger ledger = make_ledger(model, state);
+  state.accounts.largest_throughput = ledger.throughput;
   const double limit = kExplosion * std::max(0.0, ledger.throughput) + kLeastEnergy * energy_of_a_small_fall(model);
   if (!(-ledger.imbalance() > limit && ledger.kinetic > limit)) return;
   const std::size_t body = fastest_body(state);

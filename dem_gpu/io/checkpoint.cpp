@@ -15,7 +15,7 @@ namespace dem_gpu {
 namespace {
 
 constexpr const char* kKind = "talus-checkpoint";
-constexpr int kVersion = 4;
+constexpr int kVersion = 5;
 constexpr std::int64_t kLocalRealBytes = sizeof(LocalReal);
 
 /// A whole checkpoint that does not fit the simulation: no reason to look at an earlier one.
@@ -220,6 +220,7 @@ void read_one(const std::filesystem::path& path, const Model& model, State& stat
   accounts.initial_gravitational = file.double_attribute("initial_gravitational");
   accounts.removed_energy = file.double_attribute("removed_energy");
   accounts.removed_gravitational = file.double_attribute("removed_gravitational");
+  accounts.largest_throughput = file.double_attribute("largest_throughput");
   accounts.largest_overlap = file.double_attribute("largest_overlap");
   accounts.largest_rate = file.double_attribute("largest_rate");
   accounts.list_rebuilds = file.integer_attribute("list_rebuilds");
@@ -245,6 +246,7 @@ void write_checkpoint_file(const std::filesystem::path& run_folder, const Model&
     file.write_attribute("initial_gravitational", accounts.initial_gravitational);
     file.write_attribute("removed_energy", accounts.removed_energy);
     file.write_attribute("removed_gravitational", accounts.removed_gravitational);
+    file.write_attribute("largest_throughput", accounts.largest_throughput);
     file.write_attribute("largest_overlap", accounts.largest_overlap);
     file.write_attribute("largest_rate", accounts.largest_rate);
     file.write_attribute("list_rebuilds", accounts.list_rebuilds);

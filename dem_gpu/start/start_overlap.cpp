@@ -167,6 +167,20 @@ void refuse_deep_start(const Model& model, const State& state) {
 }
 
 void refuse_fast_walls(const Model& model, const State& state) {
+  // A swing in fewer steps than a contact takes in the draft preset, both ways, is no swing.
+  constexpr Real kLeastStepsPerSwing = 20;
+  for (const Wall& wall : model.scene.walls) {
+    const Real steps = 1 / (std::abs(wall.motion.frequency) * model.time_step);
+    if (wall.motion.frequency == 0 || steps >= kLeastStepsPerSwing) continue;
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "swings at %.4g Hz, %.3g steps of %.4g s a period; at least %g are needed: use a lower frequency or a "
+        "time step of at most %.3g s",
+        double(wall.motion.frequency), double(steps), double(model.time_step), double(kLeastStepsPerSwing),
+        double(steps / kLeastStepsPerSwing * model.time_step));
+    throw catalog::InputError("wall '" + wall.name + "': " + text);
+  }
   const Real travel = state.walls.largest_displacement(model.time_step);
   const auto width = to_host(model.bodies.least_width);
   const auto thinnest = std::min_element(width.begin(), width.end());

@@ -88,7 +88,8 @@ class RoundFace {
   TALUS_HD void add_stretch(const Stretch& stretch, Integrals& integrals) const {
     constexpr int kMostPanels = 12;
     const Real span = stretch.high - stretch.low, length = span * norm(stretch.step);
-    const int by_wall = 1 + static_cast<int>(std::min(length / least_.surface, Real(kMostPanels - 1)));
+    const int by_wall =
+        1 + static_cast<int>(std::min(length / std::max(least_.surface, length / kMostPanels), Real(kMostPanels - 1)));
     const ExitBranch branch = stretch.is_cut ? exit_branch(stretch) : ExitBranch{};
     if (!stretch.is_cut || branch.is_clear(stretch.low, stretch.high)) {
       for (int k = 0; k < by_wall; ++k)

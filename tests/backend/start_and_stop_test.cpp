@@ -75,6 +75,18 @@ TEST(BadWall, TooFastIsRefusedByName) {
   EXPECT_EQ(refusal(scene), "accepted");
 }
 
+TEST(BadWall, SwingTheStepCannotFollowIsRefusedByName) {
+  dem_gpu::Scene scene = overlapping_cubes(0.1);
+  dem_gpu::Wall sieve = floor_wall("sieve");
+  std::get<dem_gpu::Plane>(sieve.geometry).point.z = -3;
+  sieve.motion.amplitude = {0, 0, 1e-6};
+  sieve.motion.frequency = 1 / (10 * dem_gpu::time_step(scene));
+  scene.walls = {sieve};
+  expect_named(refusal(scene), {"wall 'sieve'", "10 steps", "at least 20", "time step of at most"});
+  scene.walls[0].motion.frequency /= 2.01;
+  EXPECT_EQ(refusal(scene), "accepted");
+}
+
 TEST(BadWall, TwoMovingObjectsOfOneNameAreRefused) {
   dem_gpu::Scene scene = overlapping_cubes(0.1);
   dem_gpu::Wall lifter;
