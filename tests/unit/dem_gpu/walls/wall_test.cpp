@@ -7,6 +7,7 @@
 #include "dem_gpu/walls/disc_integrals.h"
 #include "dem_gpu/walls/wall_motion.h"
 #include "tests/support/pair_integrals.h"
+#include "tests/support/wall_records.h"
 
 namespace {
 
@@ -15,15 +16,6 @@ using dem_gpu::surface_distance;
 using dem_gpu::WallIntegrals;
 using dem_gpu::WallRecord;
 using dem_gpu::WallSet;
-
-WallRecord record_of(decltype(dem_gpu::Wall::geometry) geometry) {
-  dem_gpu::Scene scene = empty_scene(1, 0);
-  dem_gpu::Wall wall;
-  wall.name = "wall";
-  wall.geometry = std::move(geometry);
-  scene.walls = {wall};
-  return WallSet(scene, 0).records()[0];
-}
 
 /// Least distance from x to points of the surface of revolution whose generator runs from (r0, z0) to (r1, z1).
 Real sampled_distance(const WallRecord& wall, const Vec3& x, Real r0, Real z0, Real r1, Real z1) {
