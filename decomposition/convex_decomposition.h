@@ -11,10 +11,14 @@
 namespace decomposition {
 
 struct DecompositionOptions {
-  int parts = 8;                    // at most; fewer where more would not help or would make slivers
-  int vertex_cap = 32;              // of each part, 8 to 64
-  std::uint64_t seed = 1;           // same mesh, options and seed: same bytes, whatever `threads` is
-  double effort = 1;                // scales the number of cuts and fits tried, 0.1 to 100; time grows in proportion
+  int parts = 8;           // at most; fewer where more would not help or would make slivers
+  int vertex_cap = 32;     // of each part, 8 to 64
+  int face_cap = 0;        // of each part, faces in one plane counted as one, 8 to 124; 0: none
+  std::uint64_t seed = 1;  // same mesh, options and seed: same bytes, whatever `threads` is
+  double effort = 1;       // scales the number of cuts and fits tried, 0.1 to 100; time grows in proportion
+  // CPU time [s] for looking for the cuts of all levels; as many searches as fit into it, at least one, instead of the
+  // number that `effort` gives. The result then depends on the machine. 0: none.
+  double time_budget = 0;
   double smallest_thickness = 0.1;  // of a part / thickness of the whole
   double smallest_volume = 0.01;    // of a part / volume of the whole
   int threads = 0;                  // 0: as many as the machine has
@@ -26,8 +30,11 @@ struct LevelFigures {
   double ledge_area = 0;
   double smallest_thickness = 0;  // smallest extent of a part along one of its face normals [m]
   double smallest_volume = 0;     // [m3]
+  double shortest_edge = 0;       // of a part / largest distance of two of its vertices
+  double narrowest_face = 0;      // width of a face, of a triangle its least height / the same
   int vertices = 0, faces = 0;    // in all
   int outer_faces = 0;
+  int most_vertices = 0, most_faces = 0;  // of a part
 };
 
 /// Divides the solid into convex parts: a partition by cut planes (binary space partition), each part the hull of free

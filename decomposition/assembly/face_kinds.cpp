@@ -54,8 +54,8 @@ struct Line {
 
 class FaceSplitter {
  public:
-  FaceSplitter(BuiltPart& built, const CutFrame& frame, int vertex_cap)
-      : built_(built), frame_(frame), vertex_cap_(vertex_cap) {}
+  FaceSplitter(BuiltPart& built, const CutFrame& frame, int vertex_cap, int face_cap)
+      : built_(built), frame_(frame), vertex_cap_(vertex_cap), face_cap_(face_cap) {}
 
   /// Splits what stands out beyond the convex polygon `cover` off the face, largest piece first.
   void split_beyond(std::size_t face, const Polygon2& cover) {
@@ -113,6 +113,7 @@ class FaceSplitter {
     }
     if (runs != 1 || std::none_of(height.begin(), height.end(), [](double h) { return h < 0; })) return false;
     const std::size_t end = (start + run_length) % n, before = (start + n - 1) % n, last = (end + n - 1) % n;
+    if (static_cast<int>(part.faces.size()) >= face_cap_) return false;
     const bool cuts_first = height[before] < 0, cuts_last = height[end] < 0;
     if (static_cast<int>(part.vertices.size()) + cuts_first + cuts_last > vertex_cap_) return false;
     const int entry =
@@ -157,7 +158,7 @@ class FaceSplitter {
 
   BuiltPart& built_;
   const CutFrame& frame_;
-  int vertex_cap_;
+  int vertex_cap_, face_cap_;
 };
 
 /// Corners of all overlaps of the polygon with the others.
@@ -179,7 +180,7 @@ std::vector<Polygon2> outlines(const CutFrame& frame, const std::vector<BuiltPar
 
 }  // namespace
 
-CutCoverage mark_faces(std::vector<BuiltPart>& parts, const std::vector<Plane>& cuts, int vertex_cap) {
+CutCoverage mark_faces(std::vector<BuiltPart>& parts, const std::vector<Plane>& cuts, int vertex_cap, int face_cap) {
   CutCoverage coverage;
   for (std::size_t c = 0; c < cuts.size(); ++c) {
     const CutFrame frame(cuts[c]);
@@ -194,7 +195,7 @@ CutCoverage mark_faces(std::vector<BuiltPart>& parts, const std::vector<Plane>& 
         Polygon2 cover;
         for (const int corner : convex_hull(corners, 1e-6 * std::sqrt(area(polygons[side][k]))))
           cover.push_back(corners[static_cast<std::size_t>(corner)]);
-        if (cover.size() >= 3) FaceSplitter(parts[p], frame, vertex_cap).split_beyond(f, cover);
+        if (cover.size() >= 3) FaceSplitter(parts[p], frame, vertex_cap, face_cap).split_beyond(f, cover);
       }
     const CutSides pieces = faces_on(parts, static_cast<int>(c), cuts[c]);
     for (int side = 0; side < 2; ++side)

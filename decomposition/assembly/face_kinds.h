@@ -14,8 +14,9 @@ struct CutCoverage {
 };
 
 /// Marks the faces on cuts that their neighbours across the cut cover as inner. A face that stands out beyond its
-/// neighbours is split along their outline while the part has vertices to spare (at most `vertex_cap`); else the larger
-/// share of its area decides, and the rest is counted as ledge.
-CutCoverage mark_faces(std::vector<BuiltPart>& parts, const std::vector<Plane>& cuts, int vertex_cap);
+/// neighbours is split along their outline while the part has vertices to spare (at most `vertex_cap`, and `face_cap`
+/// faces); else the larger share of its area decides, and the rest is counted as ledge.
+CutCoverage mark_faces(std::vector<BuiltPart>& parts, const std::vector<Plane>& cuts, int vertex_cap,
+                       int face_cap = 1000);
 
 }  // namespace decomposition

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "decomposition/fit/face_forces.h"
+
 namespace decomposition {
 namespace {
 
@@ -38,7 +40,9 @@ class Fitter {
     for (int s = 0; s < plan_.steps; ++s, step *= decay) {
       const bool may_revive = plan_.revives && s < kReviveUntil * plan_.steps;
       if (may_revive && s % kReviveEvery == kReviveEvery - 1) revive_dead_vertices();
-      gather_forces();
+      gather_forces(
+          solid_, points_, hull_.faces(), {plan_.samples_along, 1, steering_}, random_,
+          [](const auto&) { return false; }, forces_);
       move(step);
       if (!hull_.build(points_)) return {};
       steer_volume(s);
@@ -55,44 +59,10 @@ class Fitter {
     points_[vertex] = project_into_cell(place, cell_, centre_, margin_of(vertex, solid_.diagonal()));
   }
 
-  int samples_along(double area) const {
-    return std::clamp(static_cast<int>(std::sqrt(area) / (1.5 * solid_.cell())) + 1, 1, plan_.samples_along);
-  }
-
-  /// Derivative of the symmetric difference with respect to a vertex: over its faces, the integral of
-  /// (barycentric weight) x (1 - 2 occupancy) x normal. Stratified samples, shifted anew on each face and step.
-  void gather_forces() {
-    force_.assign(points_.size(), {});
-    share_.assign(points_.size(), 0.0);
-    for (const auto& face : hull_.faces()) {
-      const auto [ia, ib, ic] = face;
-      const Vec3 &a = at(ia), &b = at(ib), &c = at(ic);
-      const Vec3 area_normal = 0.5 * cross(b - a, c - a);
-      const double area = norm(area_normal);
-      const int n = samples_along(area);
-      const double shift_u = random_.uniform(), shift_v = random_.uniform();
-      double weight[3] = {0, 0, 0};
-      for (int i = 0; i < n; ++i)
-        for (int j = 0; j < n; ++j) {
-          double u = (i + shift_u) / n, v = (j + shift_v) / n;
-          if (u + v > 1) u = 1 - u, v = 1 - v;
-          const double pull = 1 - 2 * solid_.occupancy(a + u * (b - a) + v * (c - a)) + steering_;
-          weight[0] += (1 - u - v) * pull;
-          weight[1] += u * pull;
-          weight[2] += v * pull;
-        }
-      for (int k = 0; k < 3; ++k) {
-        const auto vertex = static_cast<std::size_t>(face[static_cast<std::size_t>(k)]);
-        force_[vertex] -= (weight[k] / (n * n)) * area_normal;
-        share_[vertex] += area / 3;
-      }
-    }
-  }
-
   void move(double step) {
     for (std::size_t v = 0; v < points_.size(); ++v) {
-      if (share_[v] <= 0) continue;
-      velocity_[v] = kMomentum * velocity_[v] + ((1 - kMomentum) / share_[v]) * force_[v];
+      if (forces_.share[v] <= 0) continue;
+      velocity_[v] = kMomentum * velocity_[v] + ((1 - kMomentum) / forces_.share[v]) * forces_.force[v];
       put(v, points_[v] + step * velocity_[v]);
     }
   }
@@ -163,8 +133,8 @@ class Fitter {
   const FitPlan& plan_;
   Random random_;
   SmallHull hull_;
-  std::vector<Vec3> points_, velocity_, force_;
-  std::vector<double> share_;  // area that moves with the vertex: a third of its faces
+  std::vector<Vec3> points_, velocity_;
+  VertexForces forces_;
   std::vector<std::size_t> dead_;
   double steering_ = 0;  // multiplier of the volume: positive pushes inward
 };

@@ -8,13 +8,16 @@
 namespace decomposition {
 namespace {
 
-// A point counts as outside a face by this share of (size of the point set)^3, the unit of the unnormalised test:
-// rounding of a triple product is about 1e-16 of it.
-constexpr double kOrientationTolerance = 1e-15;
+// A point counts as outside a face by this share of the size of the point set. It is a distance, the same for large and
+// small faces, so that faces in one plane agree; rounding is about 1e-16 of the size.
+constexpr double kOrientationTolerance = 1e-13;
 // Below this share of size^3 the first tetrahedron is called flat.
 constexpr double kFlatTolerance = 1e-12;
 
 double triple(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) { return dot(cross(b - a, c - a), d - a); }
+
+constexpr int kWidenings = 6;  // of the tolerance, by this factor each, where rounding spoils the topology
+constexpr double kWidening = 30;
 
 }  // namespace
 
@@ -33,7 +36,7 @@ bool SmallHull::start_with_tetrahedron(const std::vector<Vec3>& points, std::arr
   const int c = farthest([&](const Vec3& p) { return norm(cross(p - at(a), at(b) - at(a))); });
   const int d = farthest([&](const Vec3& p) { return std::abs(triple(at(a), at(b), at(c), p)); });
   const double size = norm(at(b) - at(a));
-  tolerance_ = kOrientationTolerance * size * size * size;
+  tolerance_ = kOrientationTolerance * size;
   const double six_volumes = triple(at(a), at(b), at(c), at(d));
   if (!(std::abs(six_volumes) > kFlatTolerance * size * size * size)) return false;
   // d must lie below (a, b, c), so that all four faces look outward.
@@ -46,7 +49,9 @@ void SmallHull::add_face(int a, int b, int c, const std::vector<Vec3>& points) {
              &pc = points[static_cast<std::size_t>(c)];
   const auto face = static_cast<std::int16_t>(faces_.size());
   faces_.push_back({a, b, c});
-  normals_.push_back(cross(pb - pa, pc - pa));
+  const Vec3 twice_area = cross(pb - pa, pc - pa);
+  const double length = norm(twice_area);
+  normals_.push_back(length > 0 ? (1 / length) * twice_area : Vec3{});
   offsets_.push_back(dot(normals_.back(), pa));
   edge_face(a, b) = edge_face(b, c) = edge_face(c, a) = face;
 }
@@ -77,19 +82,19 @@ bool SmallHull::horizon_is_a_loop() {
   return length == horizon_.size();
 }
 
-void SmallHull::insert(int point, const std::vector<Vec3>& points) {
-  const Vec3 p = points[static_cast<std::size_t>(point)];
+/// Edges around the faces that see p by more than `margin`; false if they do not make one loop.
+bool SmallHull::find_horizon(const Vec3& p, double margin) {
   const int n = static_cast<int>(faces_.size());
   visible_.clear();
   is_visible_.resize(faces_.size());
   for (int f = 0; f < n; ++f) {
     const auto i = static_cast<std::size_t>(f);
-    is_visible_[i] = dot(normals_[i], p) - offsets_[i] > tolerance_;
+    is_visible_[i] = dot(normals_[i], p) - offsets_[i] > margin;
     if (is_visible_[i]) visible_.push_back(f);
   }
-  if (visible_.empty()) return;
-  if (static_cast<int>(visible_.size()) == n) return;
   horizon_.clear();
+  if (visible_.empty()) return true;
+  if (static_cast<int>(visible_.size()) == n) return false;
   for (const int f : visible_) {
     const auto face = faces_[static_cast<std::size_t>(f)];
     for (int k = 0; k < 3; ++k) {
@@ -98,8 +103,18 @@ void SmallHull::insert(int point, const std::vector<Vec3>& points) {
       if (!is_visible_[static_cast<std::size_t>(opposite)]) horizon_.push_back({a, b});
     }
   }
-  // Among points closer than rounding the visible faces may not hang together: such a point adds nothing, leave it out.
-  if (horizon_.empty() || !horizon_is_a_loop()) return;
+  return !horizon_.empty() && horizon_is_a_loop();
+}
+
+void SmallHull::insert(int point, const std::vector<Vec3>& points) {
+  const Vec3 p = points[static_cast<std::size_t>(point)];
+  // Where rounding makes faces in one plane with p disagree, they do not count as seeing it; a point that is not clear
+  // of its neighbours even so adds nothing.
+  double margin = tolerance_;
+  bool is_found = find_horizon(p, margin);
+  for (int widening = 0; !is_found && widening < kWidenings; ++widening)
+    is_found = find_horizon(p, margin *= kWidening);
+  if (!is_found || visible_.empty()) return;
   std::sort(visible_.begin(), visible_.end(), std::greater<>());
   for (const int f : visible_) remove_face(f);
   for (const auto& [a, b] : horizon_) add_face(a, b, point, points);
@@ -120,7 +135,11 @@ bool SmallHull::finish(const std::vector<Vec3>& points) {
   return static_cast<int>(faces_.size()) == 2 * vertex_count_ - 4 && volume_ > 0;  // Euler
 }
 
-bool SmallHull::build(const std::vector<Vec3>& points) {
+bool SmallHull::build(const std::vector<Vec3>& given) {
+  // About one of the points: far from the origin the products below would lose their last digits.
+  local_.resize(given.size());
+  for (std::size_t i = 0; i < given.size(); ++i) local_[i] = given[i] - given.front();
+  const std::vector<Vec3>& points = local_;
   faces_.clear();
   normals_.clear();
   offsets_.clear();

@@ -30,12 +30,14 @@ class SmallHull {
   void add_face(int a, int b, int c, const std::vector<Vec3>& points);
   void remove_face(int face);
   void insert(int point, const std::vector<Vec3>& points);
+  bool find_horizon(const Vec3& p, double margin);
   bool horizon_is_a_loop();
   bool finish(const std::vector<Vec3>& points);
   std::int16_t& edge_face(int a, int b) { return edge_face_[static_cast<std::size_t>(a * kMaxPoints + b)]; }
 
+  std::vector<Vec3> local_;  // the points, seen from the first
   std::vector<std::array<int, 3>> faces_;
-  std::vector<Vec3> normals_;                                                                 // not unit, one per face
+  std::vector<Vec3> normals_;                                                                 // unit, one per face
   std::vector<double> offsets_;                                                               // one per face
   std::vector<std::int16_t> edge_face_ = std::vector<std::int16_t>(kMaxPoints * kMaxPoints);  // face left of a -> b
   std::vector<int> visible_;

@@ -36,7 +36,7 @@ SideScore score_side(const CutTrial& trial, const Plane& plane, const TrialPlan&
   cell.push_back(plane);
   SideScore score;
   std::vector<Vec3> points;
-  if (const auto exact = exact_piece(trial.solid, cell, trial.plan.vertex_cap)) {
+  if (const auto exact = exact_piece(trial.solid, cell, {trial.plan.vertex_cap, trial.plan.face_cap})) {
     score.is_exact = true;
     points = exact->points;
   } else {

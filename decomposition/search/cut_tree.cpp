@@ -21,32 +21,6 @@ constexpr double kSmallestGain = 1e-4;   // of the solid's volume: below, a cut 
 constexpr double kDistinctAngle = 0.97;  // cosine: two candidates nearer than this and ...
 constexpr double kDistinctShift = 0.05;  // ... with offsets nearer than this share of the piece's size are one
 
-/// Convex stand-in of the solid in a cell, and its error.
-Piece make_piece(const Solid& solid, Cell cell, int vertex_cap, std::uint64_t seed) {
-  Piece piece;
-  piece.cell = std::move(cell);
-  Random random(seed);
-  const std::vector<Vec3> points = solid.points_inside(piece.cell.planes, kPointsAPiece, random);
-  if (points.size() < 20) return piece;
-  piece.region = moments_of_points(points, solid.volume_inside(piece.cell.planes));
-  if (const auto exact = exact_piece(solid, piece.cell.planes, vertex_cap)) {
-    piece.is_exact = true;
-    piece.fit = {exact->points, exact->volume};
-    piece.region.volume = exact->volume;
-    return piece;
-  }
-  FitPlan plan = kComparison;
-  plan.seed = seed;
-  piece.fit = fit_part(solid, piece.cell.planes, piece.region.centroid,
-                       start_points(solid, piece.region, piece.cell.planes, plan), plan);
-  SmallHull hull;
-  if (piece.fit.is_valid() && hull.build(piece.fit.points))
-    piece.error = piece.region.volume + ColumnMeasure(solid, 1)(piece.fit.points, hull.faces()).misfit();
-  else
-    piece.fit = {};
-  return piece;
-}
-
 /// The first `count` of the sorted scores that are not almost the same cut.
 std::vector<CutScore> distinct(const std::vector<CutScore>& sorted, std::size_t count, double size) {
   std::vector<CutScore> chosen;
@@ -64,8 +38,34 @@ std::vector<CutScore> distinct(const std::vector<CutScore>& sorted, std::size_t 
 
 }  // namespace
 
+/// Convex stand-in of the solid in a cell, and its error.
+Piece CutTree::make_piece(Cell cell, std::uint64_t seed) const {
+  Piece piece;
+  piece.cell = std::move(cell);
+  Random random(seed);
+  const std::vector<Vec3> points = solid_.points_inside(piece.cell.planes, kPointsAPiece, random);
+  if (points.size() < 20) return piece;
+  piece.region = moments_of_points(points, solid_.volume_inside(piece.cell.planes));
+  if (const auto exact = exact_piece(solid_, piece.cell.planes, {plan_.vertex_cap, plan_.face_cap})) {
+    piece.is_exact = true;
+    piece.fit = {exact->points, exact->volume};
+    piece.region.volume = exact->volume;
+    return piece;
+  }
+  FitPlan plan = kComparison;
+  plan.seed = seed;
+  piece.fit = fit_part(solid_, piece.cell.planes, piece.region.centroid,
+                       start_points(solid_, piece.region, piece.cell.planes, plan), plan);
+  SmallHull hull;
+  if (piece.fit.is_valid() && hull.build(piece.fit.points))
+    piece.error = piece.region.volume + ColumnMeasure(solid_, 1)(piece.fit.points, hull.faces()).misfit();
+  else
+    piece.fit = {};
+  return piece;
+}
+
 CutTree::CutTree(const Solid& solid, const SearchPlan& plan) : solid_(solid), plan_(plan) {
-  nodes_.push_back({make_piece(solid, {}, plan.vertex_cap, sub_seed(plan.seed, 0)), 0, -1, false, std::nullopt});
+  nodes_.push_back({make_piece({}, sub_seed(plan.seed, 0)), 0, -1, false, std::nullopt});
 }
 
 bool CutTree::is_allowed(const Piece& piece) const {
@@ -112,8 +112,7 @@ std::optional<CutTree::Cut> CutTree::best_cut(const Piece& piece, std::uint64_t 
   const int number = static_cast<int>(cuts_.size());
   parallel_for(2, plan_.threads, [&](int side) {
     const Plane plane = side == 0 ? cut.plane : cut.plane.reversed();
-    cut.halves[static_cast<std::size_t>(side)] =
-        make_piece(solid_, piece.cell.half(number, plane), plan_.vertex_cap, sub_seed(seed, 1 + side));
+    cut.halves[static_cast<std::size_t>(side)] = make_piece(piece.cell.half(number, plane), sub_seed(seed, 1 + side));
   });
   if (!is_allowed(cut.halves[0]) || !is_allowed(cut.halves[1])) return std::nullopt;
   cut.gain = piece.error - cut.halves[0].error - cut.halves[1].error;
@@ -138,10 +137,28 @@ void CutTree::grow(int count) {
     chosen->best.reset();
     chosen->split = number;
     cuts_.push_back(cut.plane);
+    divided_.push_back(static_cast<int>(chosen - nodes_.data()));
     for (Piece& half : cut.halves) {
       half.cell.cuts.back() = number;  // cuts may have been made since this one was found
       nodes_.push_back({std::move(half), number + 1, -1, false, std::nullopt});
     }
+  }
+}
+
+void CutTree::move_cuts(const std::vector<Plane>& cuts) {
+  cuts_ = cuts;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    Node& node = nodes_[n];
+    Cell& cell = node.piece.cell;
+    for (std::size_t k = 0; k < cell.planes.size(); ++k) {
+      const Plane& moved = cuts[static_cast<std::size_t>(cell.cuts[k])];
+      // The first half of a cut is made before the second.
+      cell.planes[k] = dot(cell.planes[k].normal, moved.normal) > 0 ? moved : moved.reversed();
+    }
+    if (node.split >= 0) continue;
+    node.piece = make_piece(cell, sub_seed(plan_.seed, 5000000 + n));
+    node.was_searched = false;
+    node.best.reset();
   }
 }
 

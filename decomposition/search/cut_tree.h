@@ -17,7 +17,8 @@ struct SearchPlan {
   int directions = 40;            // random directions of cut planes a piece
   int refits = 8;                 // best candidates that are fitted again, longer
   int polishing_rounds = 3;       // rounds of small moves of the best cut
-  int vertex_cap = 32;            // an exact piece may have this many vertices
+  int vertex_cap = 32;            // an exact piece may have this many vertices ...
+  int face_cap = 0;               // ... and faces; 0: any number
   double smallest_volume = 0;     // of a piece [m3]
   double smallest_thickness = 0;  // of a piece [m]
   std::uint64_t seed = 1;
@@ -54,11 +55,17 @@ class CutTree {
 
   /// Cuts until there are `count` pieces or no cut helps.
   void grow(int count);
+  /// Puts the cuts in these places; pieces that are not cut yet are fitted again.
+  void move_cuts(const std::vector<Plane>& cuts);
   /// Numbers of the pieces after the first `count` - 1 cuts (fewer if the tree has fewer).
   std::vector<int> pieces(int count) const;
   const Piece& piece(int number) const { return nodes_[static_cast<std::size_t>(number)].piece; }
   const SearchPlan& plan() const { return plan_; }
   const std::vector<Plane>& cuts() const { return cuts_; }
+  /// The cell that a cut divides.
+  const Cell& divided_cell(int cut) const {
+    return nodes_[static_cast<std::size_t>(divided_[static_cast<std::size_t>(cut)])].piece.cell;
+  }
 
  private:
   struct Cut {
@@ -77,10 +84,13 @@ class CutTree {
   std::optional<Cut> best_cut(const Piece& piece, std::uint64_t seed) const;
   bool is_allowed(const Piece& piece) const;
 
+  Piece make_piece(Cell cell, std::uint64_t seed) const;
+
   const Solid& solid_;
   SearchPlan plan_;
   std::vector<Node> nodes_;
-  std::vector<Plane> cuts_;  // plane seen from its first half
+  std::vector<Plane> cuts_;   // plane seen from its first half
+  std::vector<int> divided_;  // node that each cut divides
 };
 
 }  // namespace decomposition

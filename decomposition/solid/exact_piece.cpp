@@ -81,7 +81,7 @@ std::vector<Vec3> cell_corners_inside(const Solid& solid, const std::vector<Plan
 
 }  // namespace
 
-std::optional<ExactPiece> exact_piece(const Solid& solid, const std::vector<Plane>& cell, int vertex_cap) {
+std::optional<ExactPiece> exact_piece(const Solid& solid, const std::vector<Plane>& cell, const ExactCaps& caps) {
   if (!solid.is_faceted()) return std::nullopt;
   const double tolerance = kOnPlane * solid.diagonal();
   if (has_reentrant_edge_inside(solid, cell, tolerance)) return std::nullopt;
@@ -90,7 +90,9 @@ std::optional<ExactPiece> exact_piece(const Solid& solid, const std::vector<Plan
   for (const std::vector<Vec3>& polygon : surface) points.insert(points.end(), polygon.begin(), polygon.end());
   if (!cell.empty() && points.size() > 8 * kMostPoints) return std::nullopt;
   const auto hull = faceted_hull(points, cell, tolerance);
-  if (!hull || static_cast<int>(hull->points.size()) > vertex_cap) return std::nullopt;
+  if (!hull || static_cast<int>(hull->points.size()) > caps.vertices ||
+      (caps.faces > 0 && static_cast<int>(hull->facets.size()) > caps.faces))
+    return std::nullopt;
   // The piece is its own hull if no surface runs through the hull's inside.
   for (const std::vector<Vec3>& polygon : surface)
     if (std::none_of(hull->facets.begin(), hull->facets.end(),

@@ -15,8 +15,13 @@ struct ExactPiece {
   double thickness = 0;      // smallest extent along a face normal [m]
 };
 
-/// The part of the solid in `cell` if it is convex and its hull has at most `vertex_cap` corners; decided by comparing
+struct ExactCaps {
+  int vertices;
+  int faces;  // 0: any number
+};
+
+/// The part of the solid in `cell` if it is convex and its hull keeps to the caps; decided by comparing
 /// exact volumes, to rounding. Only for solids with few facets (see Solid::facet_planes and Solid::is_faceted).
-std::optional<ExactPiece> exact_piece(const Solid& solid, const std::vector<Plane>& cell, int vertex_cap);
+std::optional<ExactPiece> exact_piece(const Solid& solid, const std::vector<Plane>& cell, const ExactCaps& caps);
 
 }  // namespace decomposition

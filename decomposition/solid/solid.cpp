@@ -39,6 +39,7 @@ Solid::Solid(const catalog::TriangleMesh& mesh, double cell_count) : faces_(mesh
   diagonal_ = box.diagonal();
   const Vec3 size = box.high - box.low;
   cell_ = std::fmax(std::cbrt(size.x * size.y * size.z / cell_count), diagonal_ / kMostCellsAlong);
+  cells_per_length_ = 1 / cell_;
   const auto cells = [&](double length) { return static_cast<int>(std::ceil(length / cell_)) + 2 * kPadding; };
   nx_ = cells(size.x);
   ny_ = cells(size.y);
@@ -96,22 +97,6 @@ void Solid::fill_field() {
   field_.resize(filled.size());
   for (std::size_t c = 0; c < filled.size(); ++c)
     field_[c] = static_cast<std::uint8_t>(std::min(255.0f, 255.0f * filled[c] + 0.5f));
-}
-
-double Solid::occupancy(const Vec3& p) const {
-  const double u = (p.x - origin_.x) / cell_ - 0.5, v = (p.y - origin_.y) / cell_ - 0.5,
-               w = (p.z - origin_.z) / cell_ - 0.5;
-  if (!(u >= 0 && v >= 0 && w >= 0 && u < nx_ - 1 && v < ny_ - 1 && w < nz_ - 1)) return 0;
-  const int i = static_cast<int>(u), j = static_cast<int>(v), k = static_cast<int>(w);
-  const double fx = u - i, fy = v - j, fz = w - k;
-  const std::uint8_t* c00 = &field_[(static_cast<std::size_t>(j) * nx_ + i) * nz_ + k];
-  const std::uint8_t* c10 = c00 + nz_;
-  const std::uint8_t* c01 = c00 + static_cast<std::size_t>(nx_) * nz_;
-  const std::uint8_t* c11 = c01 + nz_;
-  const auto along_z = [&](const std::uint8_t* c) { return c[0] + fz * (c[1] - c[0]); };
-  const double low = along_z(c00) + fx * (along_z(c10) - along_z(c00));
-  const double high = along_z(c01) + fx * (along_z(c11) - along_z(c01));
-  return (low + fy * (high - low)) * (1 / 255.0);
 }
 
 double Solid::volume_inside(const std::vector<Plane>& cell) const {

@@ -25,7 +25,21 @@ class Solid {
   Solid(const catalog::TriangleMesh& mesh, double cell_count);
 
   /// Share of the neighbourhood of p that is filled, 0 to 1, trilinear between cell centres.
-  double occupancy(const Vec3& p) const;
+  double occupancy(const Vec3& p) const {
+    const double u = (p.x - origin_.x) * cells_per_length_ - 0.5, v = (p.y - origin_.y) * cells_per_length_ - 0.5,
+                 w = (p.z - origin_.z) * cells_per_length_ - 0.5;
+    if (!(u >= 0 && v >= 0 && w >= 0 && u < nx_ - 1 && v < ny_ - 1 && w < nz_ - 1)) return 0;
+    const int i = static_cast<int>(u), j = static_cast<int>(v), k = static_cast<int>(w);
+    const double fx = u - i, fy = v - j, fz = w - k;
+    const std::uint8_t* c00 = &field_[(static_cast<std::size_t>(j) * nx_ + i) * nz_ + k];
+    const std::uint8_t* c10 = c00 + nz_;
+    const std::uint8_t* c01 = c00 + static_cast<std::size_t>(nx_) * nz_;
+    const std::uint8_t* c11 = c01 + nz_;
+    const auto along_z = [&](const std::uint8_t* c) { return c[0] + fz * (c[1] - c[0]); };
+    const double low = along_z(c00) + fx * (along_z(c10) - along_z(c00));
+    const double high = along_z(c01) + fx * (along_z(c11) - along_z(c01));
+    return (low + fy * (high - low)) * (1 / 255.0);
+  }
 
   const std::vector<Vec3>& vertices() const { return vertices_; }
   const std::vector<catalog::Triangle>& faces() const { return faces_; }
@@ -53,7 +67,7 @@ class Solid {
 
   std::vector<Vec3> vertices_;
   std::vector<catalog::Triangle> faces_;
-  double volume_ = 0, diagonal_ = 0, cell_ = 0;
+  double volume_ = 0, diagonal_ = 0, cell_ = 0, cells_per_length_ = 0;
   Vec3 origin_;  // low corner of the field
   int nx_ = 0, ny_ = 0, nz_ = 0;
   std::vector<std::uint8_t> field_;  // nz x ny x nx, 255 is full

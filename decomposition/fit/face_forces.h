@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "decomposition/geometry/random.h"
+#include "decomposition/solid/solid.h"
+
+namespace decomposition {
+
+/// What pushes the vertices of a polyhedron towards the least symmetric difference, for one step of a fit.
+struct VertexForces {
+  std::vector<Vec3> force;    // minus the derivative of the difference with respect to the vertex [m2]
+  std::vector<double> share;  // area that moves with the vertex: a third of its faces [m2]
+};
+
+/// How to sample the faces.
+struct ForceSampling {
+  int along = 4;           // at most this squared points a face, stratified and shifted anew on each face
+  double rock_weight = 1;  // of rock left out against void taken in
+  double steering = 0;     // added to the pull everywhere: positive pushes inward
+};
+
+/// Derivative of the symmetric difference with respect to a vertex: over its faces, the integral of (barycentric
+/// weight) x (1 - 2 occupancy) x normal. Faces for which `is_skipped` holds do not count.
+template <class IsSkipped>
+void gather_forces(const Solid& solid, const std::vector<Vec3>& points, const std::vector<std::array<int, 3>>& faces,
+                   const ForceSampling& sampling, Random& random, const IsSkipped& is_skipped, VertexForces& forces) {
+  forces.force.assign(points.size(), {});
+  forces.share.assign(points.size(), 0.0);
+  for (const auto& face : faces) {
+    if (is_skipped(face)) continue;
+    const Vec3 &a = points[static_cast<std::size_t>(face[0])], &b = points[static_cast<std::size_t>(face[1])],
+               &c = points[static_cast<std::size_t>(face[2])];
+    const Vec3 area_normal = 0.5 * cross(b - a, c - a);
+    const double area = norm(area_normal);
+    const int n = std::clamp(static_cast<int>(std::sqrt(area) / (1.5 * solid.cell())) + 1, 1, sampling.along);
+    const double shift_u = random.uniform(), shift_v = random.uniform();
+    double weight[3] = {0, 0, 0};
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        double u = (i + shift_u) / n, v = (j + shift_v) / n;
+        if (u + v > 1) u = 1 - u, v = 1 - v;
+        const double filled = solid.occupancy(a + u * (b - a) + v * (c - a));
+        const double pull = 1 - (1 + sampling.rock_weight) * filled + sampling.steering;
+        weight[0] += (1 - u - v) * pull;
+        weight[1] += u * pull;
+        weight[2] += v * pull;
+      }
+    for (int k = 0; k < 3; ++k) {
+      const auto vertex = static_cast<std::size_t>(face[static_cast<std::size_t>(k)]);
+      forces.force[vertex] -= (weight[k] / (n * n)) * area_normal;
+      forces.share[vertex] += area / 3;
+    }
+  }
+}
+
+}  // namespace decomposition
