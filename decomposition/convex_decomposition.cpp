@@ -120,6 +120,17 @@ catalog::LevelOfDetail decompose(const catalog::TriangleMesh& mesh, const Decomp
   return decompose_ladder(mesh, {options.parts}, options).front();
 }
 
+std::string mode_name(FitMode mode) {
+  switch (mode) {
+    case FitMode::enclosing:
+      return "enclosing";
+    case FitMode::inscribed:
+      return "inscribed";
+    default:
+      return "volume-true";
+  }
+}
+
 LevelFigures figures(const std::vector<catalog::ConvexPart>& parts) {
   LevelFigures result;
   result.smallest_thickness = result.smallest_volume = std::numeric_limits<double>::infinity();
@@ -142,8 +153,9 @@ LevelFigures figures(const std::vector<catalog::ConvexPart>& parts) {
 
 std::string options_json(const DecompositionOptions& options) {
   return "{\"parts\":" + std::to_string(options.parts) + ",\"vertex_cap\":" + std::to_string(options.vertex_cap) +
-         ",\"face_cap\":" + std::to_string(options.face_cap) + ",\"seed\":" + std::to_string(options.seed) +
-         ",\"effort\":" + number(options.effort) + ",\"time_budget\":" + number(options.time_budget) +
+         ",\"face_cap\":" + std::to_string(options.face_cap) + ",\"mode\":\"" + mode_name(options.mode) +
+         "\",\"seed\":" + std::to_string(options.seed) + ",\"effort\":" + number(options.effort) +
+         ",\"time_budget\":" + number(options.time_budget) +
          ",\"smallest_thickness\":" + number(options.smallest_thickness) +
          ",\"smallest_volume\":" + number(options.smallest_volume) + "}";
 }

@@ -10,10 +10,18 @@
 
 namespace decomposition {
 
+/// What the parts are to the solid.
+enum class FitMode {
+  volume_true,  // the union has the mesh's volume, and the symmetric difference is least
+  enclosing,    // nothing is missing: every point of the mesh lies in a part
+  inscribed     // nothing sticks out of the mesh
+};
+
 struct DecompositionOptions {
-  int parts = 8;           // at most; fewer where more would not help or would make slivers
-  int vertex_cap = 32;     // of each part, 8 to 64
-  int face_cap = 0;        // of each part, faces in one plane counted as one, 8 to 124; 0: none
+  int parts = 8;        // at most; fewer where more would not help or would make slivers
+  int vertex_cap = 32;  // of each part, 8 to 64
+  int face_cap = 0;     // of each part, faces in one plane counted as one, 8 to 124; 0: none
+  FitMode mode = FitMode::volume_true;
   std::uint64_t seed = 1;  // same mesh, options and seed: same bytes, whatever `threads` is
   double effort = 1;       // scales the number of cuts and fits tried, 0.1 to 100; time grows in proportion
   // CPU time [s] for looking for the cuts of all levels; as many searches as fit into it, at least one, instead of the
@@ -55,6 +63,9 @@ std::vector<catalog::LevelOfDetail> decompose_ladder(const catalog::TriangleMesh
 
 /// Figures of finished parts; ledge_area needs the cuts and stays 0 here, a level's provenance has it.
 LevelFigures figures(const std::vector<catalog::ConvexPart>& parts);
+
+/// "volume-true", "enclosing" or "inscribed".
+std::string mode_name(FitMode mode);
 
 /// The options that change the result, as a JSON object; what Provenance::options holds under "options".
 std::string options_json(const DecompositionOptions& options);

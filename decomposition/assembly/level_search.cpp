@@ -22,17 +22,22 @@ constexpr double kTrees = 3;            // at effort 1
 constexpr double kDirections = 24, kRefits = 6;
 constexpr int kManyParts = 8;       // beyond, only the trees that are best at this number grow on ...
 constexpr std::size_t kGrowOn = 1;  // ... so many
-constexpr int kMovingSteps = 150;   // of the joint fits that move a tree's cuts while it grows
-constexpr int kTrialSteps = 400;    // of the joint fits that compare trees
+constexpr int kMostTimes = 4;
+constexpr int kMovingSteps = 150;  // of the joint fits that move a tree's cuts while it grows
+constexpr int kTrialSteps = 400;   // of the joint fits that compare trees
 constexpr double kTrialFirst = 0.02, kTrialLast = 0.001;
 constexpr int kFinalSteps = 1200;
 constexpr double kFinalFirst = 0.01, kFinalLast = 0.0007;  // share of the diagonal
 constexpr double kCutRate = 0.5;
+constexpr double kBoundWeight = 4;   // of what a bound forbids against what it allows, while the bound is not kept yet
 constexpr int kFitSteps = 500;       // of parts fitted alone, beside exact pieces
 constexpr double kFitTries = 3;      // at effort 1
 constexpr double kExactSnap = 1e-9;  // of the size: fitted points touch their cut planes already
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Where parts are few their fits are cheap, and worth more tries and steps.
+int times_for_few(int count) { return std::clamp(kManyParts / count, 1, kMostTimes); }
 
 /// A tree's cuts are moved to suit all parts when it has this many: early, where the later cuts hang on them.
 bool moves_cuts_at(int count) { return count == 2 || count == 4 || count == 16; }
@@ -85,7 +90,9 @@ JointPlan LevelSearch::joint_plan() const {
   plan.first_step = kTrialFirst;
   plan.last_step = kTrialLast;
   plan.cut_rate = kCutRate;
-  plan.volume = solid_.volume();
+  if (options_.mode == FitMode::volume_true) plan.volume = solid_.volume();
+  if (options_.mode == FitMode::enclosing) plan.rock_weight = kBoundWeight;
+  if (options_.mode == FitMode::inscribed) plan.rock_weight = 1 / kBoundWeight;
   plan.seed = options_.seed;
   return plan;
 }
@@ -125,15 +132,21 @@ bool LevelSearch::has_time_for_another(std::size_t trees, double seconds_each) c
   return trees == 0 || cpu_seconds() - started_ + 1.5 * seconds_each < options_.time_budget;
 }
 
-std::optional<LevelSearch::Start> LevelSearch::start_from(std::size_t tree, int count) {
+std::optional<LevelSearch::Start> LevelSearch::start_from(std::size_t tree, int count, int variant) {
   Start start;
   start.tree = tree;
-  start.partition = start_partition(solid_, stage(tree, count), count, options_.vertex_cap, options_.seed);
   JointPlan plan = joint_plan();
+  plan.seed = sub_seed(options_.seed, 100 * tree + static_cast<std::uint64_t>(variant));
+  start.partition = start_partition(solid_, stage(tree, count), count, options_.vertex_cap, plan.seed);
   if (trim(solid_, start.partition, rules(), Trim::caps).empty()) return std::nullopt;
   if (!fit_jointly(solid_, start.partition, plan)) return std::nullopt;
   start.misfit = joint_misfit(solid_, start.partition);
   return start;
+}
+
+void LevelSearch::add_starts(std::size_t tree, int count, std::vector<Start>& result) {
+  for (int variant = 0; variant < times_for_few(count); ++variant)
+    if (auto start = start_from(tree, count, variant)) result.push_back(std::move(*start));
 }
 
 const std::vector<LevelSearch::Start>& LevelSearch::starts(int count) {
@@ -143,13 +156,12 @@ const std::vector<LevelSearch::Start>& LevelSearch::starts(int count) {
   if (count > kManyParts) {
     for (const Start& start : starts(kManyParts))
       if (racing.size() < kGrowOn) racing.push_back(start.tree);
-    for (const std::size_t tree : racing)
-      if (auto start = start_from(tree, count)) result.push_back(std::move(*start));
+    for (const std::size_t tree : racing) add_starts(tree, count, result);
   } else {
     const double begin = cpu_seconds();
     for (std::size_t tree = 0;
          has_time_for_another(tree, tree > 0 ? (cpu_seconds() - begin) / static_cast<double>(tree) : 0); ++tree)
-      if (auto start = start_from(tree, count)) result.push_back(std::move(*start));
+      add_starts(tree, count, result);
   }
   std::stable_sort(result.begin(), result.end(), [](const Start& a, const Start& b) { return a.misfit < b.misfit; });
   return starts_[count] = std::move(result);
@@ -157,10 +169,15 @@ const std::vector<LevelSearch::Start>& LevelSearch::starts(int count) {
 
 std::vector<BuiltPart> LevelSearch::fitted_jointly(Partition partition) const {
   JointPlan plan = joint_plan();
-  plan.steps = kFinalSteps;
+  plan.steps = kFinalSteps * times_for_few(static_cast<int>(partition.leaves.size()));
   plan.first_step = kFinalFirst;
   plan.last_step = kFinalLast;
   if (!fit_by_rules(solid_, partition, plan, rules())) return {};
+  if (options_.mode != FitMode::volume_true) {
+    plan.rock_weight = 1;
+    const Bound bound = options_.mode == FitMode::enclosing ? Bound::holds_solid : Bound::stays_inside;
+    if (!fit_to_bound(solid_, partition, plan, rules(), bound)) return {};
+  }
   const std::vector<std::vector<Vec3>> points = part_points(solid_, partition);
   std::vector<BuiltPart> parts;
   for (std::size_t a = 0; a < points.size(); ++a) {

@@ -47,7 +47,8 @@ class LevelSearch {
   const CutTree& stage(std::size_t tree, int count);
   bool has_time_for_another(std::size_t trees, double seconds_each) const;
   const std::vector<Start>& starts(int count);
-  std::optional<Start> start_from(std::size_t tree, int count);
+  std::optional<Start> start_from(std::size_t tree, int count, int variant);
+  void add_starts(std::size_t tree, int count, std::vector<Start>& result);
   std::vector<BuiltPart> fitted_jointly(Partition partition) const;
   FoundLevel found_jointly(int count);
   FoundLevel found_apart(const CutTree& tree, int count) const;

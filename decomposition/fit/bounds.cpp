@@ -15,6 +15,8 @@ namespace decomposition {
 namespace {
 
 constexpr double kLeastWeight = 0.05;  // of a face's corner in the motion of the face
+constexpr double kOnCut = 1e-8;        // share of the diagonal: nearer points lie on the cut
+constexpr double kAlongWall = 1e-4;    // slope of an edge that runs along an earlier cut
 constexpr double kFlattest = 0.25;  // square of the sine between a face and a cut, below which more pushing is no use
 
 /// A wish to move.
@@ -94,10 +96,78 @@ void add_clipped(const std::vector<Vec3>& triangle, const std::vector<Plane>& ce
   points.insert(points.end(), kept.begin(), kept.end());
 }
 
+/// Corners of the convex hull; all points if they are flat.
+std::vector<Vec3> hull_corners(std::vector<Vec3> points) {
+  std::set<int> corners;
+  if (points.size() > 4)
+    for (const auto& triangle : hull_triangles(points)) corners.insert(triangle.begin(), triangle.end());
+  if (corners.empty()) return points;
+  std::vector<Vec3> hull;
+  for (const int v : corners) hull.push_back(points[static_cast<std::size_t>(v)]);
+  return hull;
+}
+
+/// Wishes for the corners of a section whose outer edges break the bound; returns the largest breach.
+double push_section(const Partition& partition, const SectionPolygons& polygons, int section, Bound bound,
+                    const std::vector<Vec3>& points, double slack, double eagerness, std::vector<Wish>& wishes) {
+  const std::vector<int>& polygon = polygons.polygon(section);
+  const Vec3& normal = partition.cut_of(partition.sections[static_cast<std::size_t>(section)]).plane.normal;
+  struct Edge {
+    std::size_t from, to;
+    Vec3 outward;
+    double depth = -std::numeric_limits<double>::infinity();
+    Vec3 place{};
+  };
+  std::vector<Edge> edges;
+  const auto node = [&](std::size_t n) -> const SectionNode& { return polygons.nodes()[n]; };
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const auto from = static_cast<std::size_t>(polygon[k]);
+    const auto to = static_cast<std::size_t>(polygon[(k + 1) % polygon.size()]);
+    // Between two derived nodes on one earlier cut the polygon ends at that cut.
+    if (!node(from).is_free() && !node(to).is_free()) {
+      const bool is_wall = std::any_of(
+          partition.sections[static_cast<std::size_t>(section)].walls.begin(),
+          partition.sections[static_cast<std::size_t>(section)].walls.end(), [&](int wall) {
+            const Plane& plane = partition.cut_of(partition.sections[static_cast<std::size_t>(wall)]).plane;
+            const double length = norm(node(to).place - node(from).place);
+            return std::abs(plane.signed_distance(node(from).place)) + std::abs(plane.signed_distance(node(to).place)) <
+                   kAlongWall * length;
+          });
+      if (is_wall) continue;
+    }
+    const Vec3 outward = cross(node(to).place - node(from).place, normal);
+    if (norm(outward) > 0) edges.push_back({from, to, normalized(outward)});
+  }
+  for (const Vec3& p : points) {
+    double nearest = std::numeric_limits<double>::infinity();
+    Edge* below = nullptr;
+    for (Edge& edge : edges) {
+      const double depth = dot(edge.outward, p - node(edge.from).place);
+      if (bound == Bound::holds_solid && depth > edge.depth) edge.depth = depth, edge.place = p;
+      if (-depth < nearest) nearest = -depth, below = &edge;
+    }
+    if (bound == Bound::stays_inside && below && nearest > below->depth) below->depth = nearest, below->place = p;
+  }
+  double worst = -std::numeric_limits<double>::infinity();
+  for (const Edge& edge : edges) {
+    worst = std::fmax(worst, edge.depth);
+    if (edge.depth <= -slack) continue;
+    const Vec3 along = node(edge.to).place - node(edge.from).place;
+    const double t =
+        std::clamp(dot(edge.place - node(edge.from).place, along) / dot(along, along), kLeastWeight, 1 - kLeastWeight);
+    const double squares = t * t + (1 - t) * (1 - t);
+    const double motion = (bound == Bound::holds_solid ? 1 : -1) * eagerness * (edge.depth + slack) / squares;
+    wishes[edge.from].add(((1 - t) * motion) * edge.outward);
+    wishes[edge.to].add((t * motion) * edge.outward);
+  }
+  return worst;
+}
+
 }  // namespace
 
-std::vector<std::vector<Vec3>> surface_points(const Solid& solid, const Partition& partition, bool hulls_only) {
-  std::vector<std::vector<Vec3>> result;
+BoundPoints bound_points(const Solid& solid, const Partition& partition, bool hulls_only) {
+  BoundPoints result;
+  result.on_section.resize(partition.sections.size());
   for (const Leaf& leaf : partition.leaves) {
     const std::vector<Plane> cell = partition.planes_of(leaf.sides);
     std::vector<Vec3> points;
@@ -106,27 +176,24 @@ std::vector<std::vector<Vec3>> surface_points(const Solid& solid, const Partitio
       for (const int v : face) triangle.push_back(solid.vertices()[static_cast<std::size_t>(v)]);
       add_clipped(triangle, cell, points);
     }
-    const auto before = [](const Vec3& a, const Vec3& b) {
-      return std::array<double, 3>{a.x, a.y, a.z} < std::array<double, 3>{b.x, b.y, b.z};
-    };
-    std::sort(points.begin(), points.end(), before);
-    points.erase(std::unique(points.begin(), points.end(),
-                             [](const Vec3& a, const Vec3& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }),
-                 points.end());
-    if (hulls_only && points.size() > 4) {
-      std::set<int> corners;
-      for (const auto& triangle : hull_triangles(points)) corners.insert(triangle.begin(), triangle.end());
-      std::vector<Vec3> hull;
-      for (const int v : corners) hull.push_back(points[static_cast<std::size_t>(v)]);
-      if (!hull.empty()) points = std::move(hull);
+    if (hulls_only) points = hull_corners(std::move(points));
+    result.in_cell.emplace_back();
+    for (const Vec3& p : points) {
+      bool is_on_cut = false;
+      for (const int section : leaf.sections) {
+        const Plane& plane = partition.cut_of(partition.sections[static_cast<std::size_t>(section)]).plane;
+        if (std::abs(plane.signed_distance(p)) > kOnCut * solid.diagonal()) continue;
+        is_on_cut = true;
+        result.on_section[static_cast<std::size_t>(section)].push_back(p);
+      }
+      if (!is_on_cut) result.in_cell.back().push_back(p);
     }
-    result.push_back(std::move(points));
   }
   return result;
 }
 
-double push_towards_bound(const Solid& solid, Partition& partition, Bound bound,
-                          const std::vector<std::vector<Vec3>>& points, double slack) {
+double push_towards_bound(const Solid& solid, Partition& partition, Bound bound, const BoundPoints& points,
+                          double slack, double eagerness) {
   SectionPolygons polygons;
   polygons.build(partition, kSameCorner * solid.diagonal());
   std::vector<LeafShape> shapes(partition.leaves.size());
@@ -141,9 +208,9 @@ double push_towards_bound(const Solid& solid, Partition& partition, Bound bound,
     const LeafShape& shape = shapes[a];
     std::vector<Breach> breaches = outer_triangles(shape);
     if (bound == Bound::holds_solid)
-      find_outside(shape, points[a], breaches);
+      find_outside(shape, points.in_cell[a], breaches);
     else
-      find_inside(shape, points[a], breaches);
+      find_inside(shape, points.in_cell[a], breaches);
     std::vector<Wish> wishes(shape.own_count());
     for (const Breach& breach : breaches) {
       worst = std::fmax(worst, breach.depth);
@@ -153,7 +220,7 @@ double push_towards_bound(const Solid& solid, Partition& partition, Bound bound,
       const std::array<double, 3> weight = weights_at(corner, breach.normal, breach.place);
       const double squares = weight[0] * weight[0] + weight[1] * weight[1] + weight[2] * weight[2];
       for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3 motion = (sign * (breach.depth + slack) * weight[k] / squares) * breach.normal;
+        const Vec3 motion = (sign * eagerness * (breach.depth + slack) * weight[k] / squares) * breach.normal;
         const auto v = static_cast<std::size_t>(breach.triangle[k]);
         if (v < wishes.size())
           wishes[v].add(motion);
@@ -166,6 +233,9 @@ double push_towards_bound(const Solid& solid, Partition& partition, Bound bound,
         partition.leaves[a].points[v] = project_into_cell(partition.leaves[a].points[v] + wishes[v].mean(), shape.cell,
                                                           shape.centre, 0.5 * kOwnMargin * solid.diagonal());
   }
+  for (std::size_t s = 0; s < partition.sections.size(); ++s)
+    worst = std::fmax(worst, push_section(partition, polygons, static_cast<int>(s), bound, points.on_section[s], slack,
+                                          eagerness, node_wishes));
   for (std::size_t n = nodes.size(); n-- > 0;) {
     const SectionNode& node = nodes[n];
     if (node_wishes[n].count == 0) continue;

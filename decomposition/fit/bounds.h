@@ -15,14 +15,20 @@ enum class Bound {
   stays_inside  // no part sticks out of the solid
 };
 
-/// Points of the solid's surface in every leaf's cell, those on the cuts included: the parts hold the solid when each
-/// holds the points of its own cell. `hulls_only`: of each cell the corners of their convex hull only.
-std::vector<std::vector<Vec3>> surface_points(const Solid& solid, const Partition& partition, bool hulls_only);
+/// Points of the solid's surface that decide whether a bound is kept: the parts hold the solid when each holds the
+/// points of its own cell, and each section those on its cut.
+struct BoundPoints {
+  std::vector<std::vector<Vec3>> in_cell;     // (n_leaves) off the cuts
+  std::vector<std::vector<Vec3>> on_section;  // (n_sections)
+};
 
-/// Moves own points and corners so that outer faces that break the bound come nearer to keeping it. The points are
-/// those of surface_points; `slack` [m] is kept beyond them. Returns the largest breach found before, negative if there
-/// is none; infinite if a part collapsed.
-double push_towards_bound(const Solid& solid, Partition& partition, Bound bound,
-                          const std::vector<std::vector<Vec3>>& points, double slack);
+/// `hulls_only`: of each cell the corners of their convex hull only.
+BoundPoints bound_points(const Solid& solid, const Partition& partition, bool hulls_only);
+
+/// Moves own points and corners so that outer faces and edges of sections that break the bound come nearer to keeping
+/// it. `slack` [m] is kept beyond it; every move is `eagerness` times what one face alone would need. Returns the
+/// largest breach found before, negative if there is none; infinite if a part collapsed.
+double push_towards_bound(const Solid& solid, Partition& partition, Bound bound, const BoundPoints& points,
+                          double slack, double eagerness = 1);
 
 }  // namespace decomposition

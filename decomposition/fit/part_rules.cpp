@@ -181,6 +181,12 @@ std::vector<int> trim(const Solid& solid, Partition& partition, const PartRules&
   return lost;
 }
 
+int count_flaws(const Solid& solid, const Partition& partition, const PartRules& rules) {
+  std::size_t count = 0;
+  for (const LeafShape& shape : shapes_of(solid, partition)) count += find_flaws(shape, rules, true).size();
+  return static_cast<int>(count);
+}
+
 void trim_points(std::vector<Vec3>& points, const std::vector<Plane>& cell, double diagonal, const PartRules& rules) {
   SmallHull hull;
   for (LeafShape shape; points.size() > 4 && shape.update(cell, points, diagonal);) {

@@ -30,6 +30,9 @@ std::vector<int> trim(const Solid& solid, Partition& partition, const PartRules&
 /// The same for points in a cell that stand alone.
 void trim_points(std::vector<Vec3>& points, const std::vector<Plane>& cell, double diagonal, const PartRules& rules);
 
+/// Number of breaches of the rules.
+int count_flaws(const Solid& solid, const Partition& partition, const PartRules& rules);
+
 /// Leaves out own points that fell inside.
 void drop_dead_points(const Solid& solid, Partition& partition);
 

@@ -12,7 +12,27 @@ constexpr double kMargin = 1.1;        // while the parts still move, edges and 
 constexpr int kMostAtOnce = 4;         // points of a part that are put elsewhere in a round
 constexpr double kSpread = 0.3;        // see JointPlan
 constexpr double kSpreadMargin = 1.4;  // on the rules, where the spread sets in
-constexpr int kLastRounds = 4;         // of trimming and setting the volume
+constexpr int kBoundRounds = 80;       // of fitting on and pushing towards a bound
+constexpr int kBoundRoundsWithNew = 40;
+constexpr int kStepsARound = 5, kStepsWithNew = 16;
+constexpr int kPushesARound = 3;
+constexpr double kBoundFirst = 0.004, kBoundLast = 0.0002;  // share of the diagonal
+constexpr double kSlack = 1e-7;                             // share of the diagonal kept beyond a bound
+constexpr int kMostPushes = 400;                            // until a bound is kept to the last point
+constexpr int kTrimEvery = 4;                               // rounds
+constexpr int kLastCycles = 8;                              // of trimming and pushing, until both hold
+constexpr double kPushesToOneMore = 15;                     // before they grow by their first size
+constexpr int kLastRounds = 4;                              // of trimming and setting the volume
+
+/// Adds own points inside the parts: the fit puts them where they are of use.
+void add_dead_points(const Solid& solid, Partition& partition, const std::vector<int>& counts) {
+  const std::vector<std::vector<Vec3>> points = part_points(solid, partition);
+  for (std::size_t a = 0; a < counts.size(); ++a) {
+    Vec3 middle;
+    for (const Vec3& p : points[a]) middle += (1.0 / static_cast<double>(points[a].size())) * p;
+    for (int k = 0; k < counts[a]; ++k) partition.leaves[a].points.push_back(middle);
+  }
+}
 
 }  // namespace
 
@@ -37,17 +57,10 @@ bool fit_by_rules(const Solid& solid, Partition& partition, const JointPlan& pla
     if (lost.empty()) return false;
     settling.revives = puts_new;
     settling.seed = plan.seed + static_cast<std::uint64_t>(round) + 1;
-    if (puts_new) {
-      const std::vector<std::vector<Vec3>> points = part_points(solid, partition);
-      for (std::size_t a = 0; a < lost.size(); ++a) {
-        Vec3 middle;
-        for (const Vec3& p : points[a]) middle += (1.0 / static_cast<double>(points[a].size())) * p;
-        // The fit puts points that lie inside where rock stands out.
-        for (int k = 0; k < lost[a]; ++k) partition.leaves[a].points.push_back(middle);
-      }
-    } else {
+    if (puts_new)
+      add_dead_points(solid, partition, lost);
+    else
       drop_dead_points(solid, partition);
-    }
     if (!fit_jointly(solid, partition, settling)) return false;
   }
   drop_dead_points(solid, partition);
@@ -58,6 +71,69 @@ bool fit_by_rules(const Solid& solid, Partition& partition, const JointPlan& pla
     correct_volume(solid, partition, plan.volume);
   }
   return true;
+}
+
+namespace {
+
+bool push_to_bound(const Solid& solid, Partition& partition, Bound bound, const BoundPoints& points) {
+  for (int push = 0; push < kMostPushes; ++push) {
+    const double breach =
+        push_towards_bound(solid, partition, bound, points, 2 * kSlack * solid.diagonal(), 1 + push / kPushesToOneMore);
+    if (breach <= -kSlack * solid.diagonal()) return true;
+    if (!std::isfinite(breach)) return false;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool fit_to_bound(const Solid& solid, Partition& partition, const JointPlan& plan, const PartRules& rules,
+                  Bound bound) {
+  const BoundPoints points = bound_points(solid, partition, bound == Bound::holds_solid);
+  PartRules stricter = rules;
+  stricter.shortest_edge *= kMargin;
+  stricter.narrowest_face *= kMargin;
+  JointPlan settling = plan;
+  settling.cut_rate = 0;
+  settling.volume = 0;
+  settling.spread = kSpread;
+  settling.shortest_edge = kSpreadMargin * rules.shortest_edge;
+  settling.narrowest_face = kSpreadMargin * rules.narrowest_face;
+  const auto approach = [&](int round) {
+    settling.first_step = kBoundFirst * std::pow(kBoundLast / kBoundFirst, round / (kBoundRounds - 1.0));
+    settling.last_step = settling.first_step;
+    settling.seed = plan.seed + static_cast<std::uint64_t>(round);
+    if (!fit_jointly(solid, partition, settling)) return false;
+    for (int push = 0; push < kPushesARound; ++push)
+      push_towards_bound(solid, partition, bound, points, kSlack * solid.diagonal());
+    return true;
+  };
+  for (int round = 0; round < kBoundRounds; ++round) {
+    settling.revives = round < kBoundRoundsWithNew;
+    settling.steps = settling.revives ? kStepsWithNew : kStepsARound;
+    if (round % kTrimEvery == 0) {
+      const std::vector<int> lost = settling.revives ? trim(solid, partition, stricter, Trim::own_points, kMostAtOnce)
+                                                     : trim(solid, partition, stricter, Trim::flaws);
+      if (lost.empty()) return false;
+      drop_dead_points(solid, partition);
+      if (settling.revives && rules.faces == 0) {
+        std::vector<int> spare;
+        for (const std::vector<Vec3>& part : part_points(solid, partition))
+          spare.push_back(std::max(0, rules.vertices - static_cast<int>(part.size())));
+        add_dead_points(solid, partition, spare);
+      }
+    }
+    if (!approach(round)) return false;
+  }
+  drop_dead_points(solid, partition);
+  for (int cycle = 0; cycle < kLastCycles; ++cycle) {
+    if (!push_to_bound(solid, partition, bound, points)) return false;
+    if (count_flaws(solid, partition, rules) == 0) return true;
+    if (trim(solid, partition, stricter, Trim::flaws).empty()) return false;
+    for (int round = kBoundRounds - kTrimEvery; round < kBoundRounds; ++round)
+      if (!approach(round)) return false;
+  }
+  return push_to_bound(solid, partition, bound, points);
 }
 
 }  // namespace decomposition
