@@ -18,11 +18,16 @@ namespace {
 
 constexpr double kFieldCells = 2e6;     // a rock of 30,000 faces gets cells about as wide as its triangles
 constexpr double kSearchCells = 2.5e5;  // for comparing cuts: what fits the caches is looked up faster
-constexpr double kTrees = 3;            // at effort 1
+// The race, at effort 1: so many trees are grown, the best of them go on beyond kFirstChoice parts (the joint fit's
+// misfit there foretells that at twice as many: correlation 0.5 to 0.8 on rocks).
+constexpr double kTrees = 8, kTreesGoingOn = 2;
+constexpr double kTreesOfFaceted = 2;  // the many facet planes to try make these trees dear, and alike
+constexpr int kFirstChoice = 4;
+constexpr double kShareForTrees = 0.5;  // of a time budget
+constexpr std::size_t kMostTrees = 1000;
+constexpr double kRoomToMove = 1.3;  // on the smallest volume and thickness: the joint fits move the cuts
 constexpr double kDirections = 24, kRefits = 6;
-constexpr int kManyParts = 8;       // beyond, only the trees that are best at this number grow on ...
-constexpr std::size_t kGrowOn = 1;  // ... so many
-constexpr int kMostTimes = 4;
+constexpr int kFewParts = 8, kMostTimes = 4;
 constexpr int kMovingSteps = 150;  // of the joint fits that move a tree's cuts while it grows
 constexpr int kTrialSteps = 400;   // of the joint fits that compare trees
 constexpr double kTrialFirst = 0.02, kTrialLast = 0.001;
@@ -37,7 +42,7 @@ constexpr double kExactSnap = 1e-9;  // of the size: fitted points touch their c
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Where parts are few their fits are cheap, and worth more tries and steps.
-int times_for_few(int count) { return std::clamp(kManyParts / count, 1, kMostTimes); }
+int times_for_few(int count) { return std::clamp(kFewParts / count, 1, kMostTimes); }
 
 /// A tree's cuts are moved to suit all parts when it has this many: early, where the later cuts hang on them.
 bool moves_cuts_at(int count) { return count == 2 || count == 4 || count == 16; }
@@ -49,7 +54,7 @@ LevelSearch::LevelSearch(const catalog::TriangleMesh& mesh, const DecompositionO
   columns_volume_ = solid_.volume_inside({});
   plan_.directions = std::max(4, static_cast<int>(std::lround(kDirections * std::fmin(1.0, options.effort))));
   plan_.refits = std::max(2, static_cast<int>(std::lround(kRefits * std::fmin(1.0, options.effort))));
-  plan_.polishing_rounds = 2;
+  plan_.polishing_rounds = 0;  // the joint fits move the cuts
   plan_.vertex_cap = options.vertex_cap;
   plan_.face_cap = options.face_cap;
   plan_.smallest_volume = options.smallest_volume * solid_.volume();
@@ -77,10 +82,12 @@ double LevelSearch::thickness_of_whole() const {
   return thickness;
 }
 
-SearchPlan LevelSearch::search_plan(std::uint64_t tree) const {
+SearchPlan LevelSearch::search_plan(std::size_t tree) const {
   SearchPlan plan = plan_;
   plan.seed = sub_seed(options_.seed, 2000003ull + tree);
-  plan.threads = tree == 0 ? threads() : 1;
+  plan.smallest_volume *= kRoomToMove;
+  plan.smallest_thickness *= kRoomToMove;
+  plan.threads = trees_.size() > 1 ? 1 : threads();  // else the trees grow side by side
   return plan;
 }
 
@@ -90,6 +97,7 @@ JointPlan LevelSearch::joint_plan() const {
   plan.first_step = kTrialFirst;
   plan.last_step = kTrialLast;
   plan.cut_rate = kCutRate;
+  plan.smallest_part = plan_.smallest_volume;
   if (options_.mode == FitMode::volume_true) plan.volume = solid_.volume();
   if (options_.mode == FitMode::enclosing) plan.rock_weight = kBoundWeight;
   if (options_.mode == FitMode::inscribed) plan.rock_weight = 1 / kBoundWeight;
@@ -104,65 +112,105 @@ PartRules LevelSearch::rules() const {
   return rules;
 }
 
-const CutTree& LevelSearch::stage(std::size_t tree, int count) {
-  while (trees_.size() <= tree) trees_.push_back(std::make_unique<TreeStages>());
-  TreeStages& stages = *trees_[tree];
-  if (stages.empty()) stages.emplace(1, CutTree(coarse_, search_plan(tree)));
-  for (int next = stages.rbegin()->first + 1; next <= count; ++next) {
-    CutTree grown = stages.at(next - 1);
-    // Cuts of a drawn solid stay on its facets.
-    if (moves_cuts_at(next - 1) && grown.cuts().size() + 2 == static_cast<std::size_t>(next) && !solid_.is_faceted()) {
-      Partition partition = start_partition(coarse_, grown, next - 1, options_.vertex_cap, options_.seed);
-      JointPlan plan = joint_plan();
-      plan.steps = kMovingSteps;
-      if (fit_jointly(coarse_, partition, plan)) {
-        std::vector<Plane> planes;
-        for (const Cut& cut : partition.cuts) planes.push_back(cut.plane);
-        grown.move_cuts(planes);
-      }
+/// Puts the cuts of a tree where they suit all its parts, as a short joint fit finds.
+void LevelSearch::move_cuts(TreeStages& stages, int count) const {
+  CutTree tree = stages.grown.at(count);
+  const std::vector<int> pieces = tree.pieces(count);
+  double misfit = 0;
+  for (const int piece : pieces) misfit += tree.piece(piece).error;
+  // Cuts of a drawn solid stay on its facets.
+  if (static_cast<int>(pieces.size()) == count && !solid_.is_faceted()) {
+    Partition partition = start_partition(coarse_, tree, count, options_.vertex_cap, options_.seed);
+    JointPlan plan = joint_plan();
+    plan.steps = kMovingSteps;
+    if (fit_jointly(coarse_, partition, plan)) {
+      std::vector<Plane> planes;
+      for (const Cut& cut : partition.cuts) planes.push_back(cut.plane);
+      tree.move_cuts(planes);
+      misfit = solid_.volume() + joint_misfit(coarse_, partition);
     }
-    grown.grow(next);
-    stages.emplace(next, std::move(grown));
   }
-  return stages.at(count);
+  stages.misfit[count] = misfit;
+  stages.moved.emplace(count, std::move(tree));
 }
 
-bool LevelSearch::has_time_for_another(std::size_t trees, double seconds_each) const {
-  if (options_.time_budget <= 0) return trees < static_cast<std::size_t>(std::max(1.0, kTrees * options_.effort));
-  return trees == 0 || cpu_seconds() - started_ + 1.5 * seconds_each < options_.time_budget;
+const CutTree& LevelSearch::stage(std::size_t tree, int count) {
+  TreeStages& stages = trees_[tree];
+  if (stages.grown.empty()) stages.grown.emplace(1, CutTree(coarse_, search_plan(tree)));
+  for (int next = stages.grown.rbegin()->first + 1; next <= count; ++next) {
+    if (moves_cuts_at(next - 1) && !stages.moved.contains(next - 1)) move_cuts(stages, next - 1);
+    CutTree grown = (moves_cuts_at(next - 1) ? stages.moved : stages.grown).at(next - 1);
+    grown.grow(next);
+    stages.grown.emplace(next, std::move(grown));
+  }
+  return stages.grown.at(count);
 }
 
-std::optional<LevelSearch::Start> LevelSearch::start_from(std::size_t tree, int count, int variant) {
-  Start start;
-  start.tree = tree;
-  JointPlan plan = joint_plan();
-  plan.seed = sub_seed(options_.seed, 100 * tree + static_cast<std::uint64_t>(variant));
-  start.partition = start_partition(solid_, stage(tree, count), count, options_.vertex_cap, plan.seed);
-  if (trim(solid_, start.partition, rules(), Trim::caps).empty()) return std::nullopt;
-  if (!fit_jointly(solid_, start.partition, plan)) return std::nullopt;
-  start.misfit = joint_misfit(solid_, start.partition);
-  return start;
+/// As many trees as the effort or the time asks for, grown to `count` parts or to where the best are chosen.
+void LevelSearch::plant_trees(int count) {
+  const int grown_to = std::min(count, kFirstChoice);
+  if (options_.time_budget > 0) {
+    const double begin = cpu_seconds();
+    while (trees_.empty() || cpu_seconds() - started_ + (cpu_seconds() - begin) / static_cast<double>(trees_.size()) <
+                                 kShareForTrees * options_.time_budget) {
+      trees_.emplace_back();
+      stage(trees_.size() - 1, grown_to);
+      if (trees_.size() == kMostTrees) break;
+    }
+    return;
+  }
+  const double trees = (solid_.is_faceted() ? kTreesOfFaceted : kTrees) * options_.effort;
+  trees_.resize(static_cast<std::size_t>(std::max(1.0, std::round(trees))));
+  parallel_for(static_cast<int>(trees_.size()), threads(),
+               [&](int t) { stage(static_cast<std::size_t>(t), grown_to); });
 }
 
-void LevelSearch::add_starts(std::size_t tree, int count, std::vector<Start>& result) {
-  for (int variant = 0; variant < times_for_few(count); ++variant)
-    if (auto start = start_from(tree, count, variant)) result.push_back(std::move(*start));
+/// The trees that are still in the race at this number of parts.
+std::vector<std::size_t> LevelSearch::racing_trees(int count) {
+  if (trees_.empty()) plant_trees(count);
+  std::vector<std::size_t> racing;
+  for (std::size_t t = 0; t < trees_.size(); ++t) racing.push_back(t);
+  if (count <= kFirstChoice) return racing;
+  parallel_for(static_cast<int>(trees_.size()), threads(), [&](int t) {
+    const auto tree = static_cast<std::size_t>(t);
+    stage(tree, kFirstChoice);
+    if (!trees_[tree].moved.contains(kFirstChoice)) move_cuts(trees_[tree], kFirstChoice);
+  });
+  std::stable_sort(racing.begin(), racing.end(), [&](std::size_t a, std::size_t b) {
+    return trees_[a].misfit.at(kFirstChoice) < trees_[b].misfit.at(kFirstChoice);
+  });
+  const double going_on = kTreesGoingOn * std::sqrt(options_.effort);
+  racing.resize(std::min(racing.size(), static_cast<std::size_t>(std::max(1.0, std::round(going_on)))));
+  return racing;
+}
+
+std::vector<LevelSearch::Start> LevelSearch::starts_from(std::size_t tree, int count) {
+  std::vector<Start> result;
+  for (int variant = 0; variant < times_for_few(count); ++variant) {
+    Start start;
+    start.tree = tree;
+    JointPlan plan = joint_plan();
+    plan.seed = sub_seed(options_.seed, 100 * tree + static_cast<std::uint64_t>(variant));
+    start.partition = start_partition(solid_, stage(tree, count), count, options_.vertex_cap, plan.seed);
+    if (static_cast<int>(start.partition.leaves.size()) < count) continue;  // the tree has no more
+    if (trim(solid_, start.partition, rules(), Trim::caps).empty()) continue;
+    if (!fit_jointly(solid_, start.partition, plan)) continue;
+    start.misfit = joint_misfit(solid_, start.partition);
+    result.push_back(std::move(start));
+  }
+  return result;
 }
 
 const std::vector<LevelSearch::Start>& LevelSearch::starts(int count) {
   if (const auto known = starts_.find(count); known != starts_.end()) return known->second;
-  std::vector<std::size_t> racing;
+  const std::vector<std::size_t> racing = racing_trees(count);
+  std::vector<std::vector<Start>> from(racing.size());
+  parallel_for(static_cast<int>(racing.size()), threads(), [&](int k) {
+    const auto r = static_cast<std::size_t>(k);
+    from[r] = starts_from(racing[r], count);
+  });
   std::vector<Start> result;
-  if (count > kManyParts) {
-    for (const Start& start : starts(kManyParts))
-      if (racing.size() < kGrowOn) racing.push_back(start.tree);
-    for (const std::size_t tree : racing) add_starts(tree, count, result);
-  } else {
-    const double begin = cpu_seconds();
-    for (std::size_t tree = 0;
-         has_time_for_another(tree, tree > 0 ? (cpu_seconds() - begin) / static_cast<double>(tree) : 0); ++tree)
-      add_starts(tree, count, result);
-  }
+  for (std::vector<Start>& some : from) std::move(some.begin(), some.end(), std::back_inserter(result));
   std::stable_sort(result.begin(), result.end(), [](const Start& a, const Start& b) { return a.misfit < b.misfit; });
   return starts_[count] = std::move(result);
 }
@@ -184,7 +232,11 @@ std::vector<BuiltPart> LevelSearch::fitted_jointly(Partition partition) const {
     Cell cell;
     cell.planes = partition.planes_of(partition.leaves[a].sides);
     for (const CutSide& side : partition.leaves[a].sides) cell.cuts.push_back(side.cut);
-    std::optional<BuiltPart> part = build_part(points[a], cell, kExactSnap * solid_.diagonal());
+    const double snap = kExactSnap * solid_.diagonal();
+    // The parts keep to the rules by now, but for rounding: the last triangulation of a face may be another.
+    std::optional<BuiltPart> part = options_.mode == FitMode::enclosing
+                                        ? build_part(points[a], cell, snap)
+                                        : build_part_by_rules(points[a], cell, snap, rules());
     if (!part) return {};
     parts.push_back(std::move(*part));
   }
@@ -220,12 +272,7 @@ std::optional<BuiltPart> LevelSearch::fitted_alone(const Piece& piece, int numbe
   const PartFit fit = finish_part(solid_, piece.cell.planes, piece.region, plan, tries);
   if (!fit.is_valid()) return std::nullopt;
   const double snap = kSnapShare * bounding_box(fit.points).diagonal();
-  std::optional<BuiltPart> part = build_part(fit.points, piece.cell, snap);
-  if (!part) return part;
-  std::vector<Vec3> points;
-  for (const catalog::Point& p : part->part.vertices) points.push_back(to_vec3(p));
-  trim_points(points, piece.cell.planes, solid_.diagonal(), rules());
-  return build_part(points, piece.cell, kExactSnap * solid_.diagonal());
+  return build_part_by_rules(fit.points, piece.cell, snap, rules());
 }
 
 FoundLevel LevelSearch::found_apart(const CutTree& tree, int count) const {
@@ -245,13 +292,19 @@ FoundLevel LevelSearch::found_apart(const CutTree& tree, int count) const {
 }
 
 FoundLevel LevelSearch::find(int parts_asked) {
+  if (trees_.empty()) plant_trees(parts_asked);
   for (int count = parts_asked; count > 0; --count) {
-    const CutTree& first = stage(0, count);
-    const std::vector<int> pieces = first.pieces(count);
-    if (static_cast<int>(pieces.size()) < count) continue;  // the tree has no more
-    const bool has_exact =
-        std::any_of(pieces.begin(), pieces.end(), [&](int piece) { return first.piece(piece).is_exact; });
-    FoundLevel level = has_exact ? found_apart(first, count) : found_jointly(count);
+    FoundLevel level;
+    bool is_apart = false;
+    if (solid_.is_faceted()) {
+      // All trees find the exact pieces of a drawn solid, if it has any.
+      const CutTree& tree = stage(0, count);
+      const std::vector<int> pieces = tree.pieces(count);
+      if (static_cast<int>(pieces.size()) < count) continue;  // the tree has no more
+      is_apart = std::any_of(pieces.begin(), pieces.end(), [&](int piece) { return tree.piece(piece).is_exact; });
+      if (is_apart) level = found_apart(tree, count);
+    }
+    if (!is_apart) level = found_jointly(count);
     if (level.parts.empty()) continue;
     std::vector<Plane> cuts;
     int cut_count = 0;
@@ -262,8 +315,8 @@ FoundLevel LevelSearch::find(int parts_asked) {
       for (std::size_t k = 0; k < part.cell.cuts.size(); ++k)
         cuts[static_cast<std::size_t>(part.cell.cuts[k])] = part.cell.planes[k];
     // Parts fitted jointly share their outlines on the cuts: nothing to split.
-    const CutCoverage coverage = mark_faces(level.parts, cuts, has_exact ? options_.vertex_cap : 0,
-                                            has_exact && options_.face_cap > 0 ? options_.face_cap : 1000);
+    const CutCoverage coverage = mark_faces(level.parts, cuts, is_apart ? options_.vertex_cap : 0,
+                                            is_apart && options_.face_cap > 0 ? options_.face_cap : 1000);
     if (coverage.covered_area > 0) level.ledge_area = coverage.ledge_area / coverage.covered_area;
     return level;
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -19,8 +18,9 @@ struct FoundLevel {
   double ledge_area = 0;  // see LevelFigures
 };
 
-/// The search on one mesh, kept while several levels are made: cut trees of several seeds, a joint fit of all parts
-/// from each for comparison, and a long one from the best. A level does not depend on which others were made before it.
+/// The search on one mesh, kept while several levels are made: cut trees of several seeds, of which the best go on at
+/// certain numbers of parts; joint fits of all parts from these, and a long one from the best. A level does not depend
+/// on which others were made before it.
 class LevelSearch {
  public:
   LevelSearch(const catalog::TriangleMesh& mesh, const DecompositionOptions& options);
@@ -29,10 +29,12 @@ class LevelSearch {
   FoundLevel find(int parts_asked);
 
  private:
-  /// One tree at every number of parts it has had: from time to time its cuts are moved, so that it cannot be asked for
-  /// its past.
-  using TreeStages = std::map<int, CutTree>;
-
+  /// A tree at every number of parts it has had, as grown, and where its cuts were moved then, as moved.
+  struct TreeStages {
+    std::map<int, CutTree> grown, moved;
+    std::map<int, double> misfit;  // where it was moved: of the joint fit then [m3]
+  };
+  /// Parts fitted jointly for comparison.
   struct Start {
     Partition partition;
     double misfit = 0;
@@ -41,14 +43,17 @@ class LevelSearch {
 
   int threads() const;
   double thickness_of_whole() const;
-  SearchPlan search_plan(std::uint64_t tree) const;
+  SearchPlan search_plan(std::size_t tree) const;
   JointPlan joint_plan() const;
   PartRules rules() const;
+
   const CutTree& stage(std::size_t tree, int count);
-  bool has_time_for_another(std::size_t trees, double seconds_each) const;
+  void move_cuts(TreeStages& stages, int count) const;
+  void plant_trees(int count);
+  std::vector<std::size_t> racing_trees(int count);
   const std::vector<Start>& starts(int count);
-  std::optional<Start> start_from(std::size_t tree, int count, int variant);
-  void add_starts(std::size_t tree, int count, std::vector<Start>& result);
+  std::vector<Start> starts_from(std::size_t tree, int count);
+
   std::vector<BuiltPart> fitted_jointly(Partition partition) const;
   FoundLevel found_jointly(int count);
   FoundLevel found_apart(const CutTree& tree, int count) const;
@@ -60,7 +65,7 @@ class LevelSearch {
   SearchPlan plan_;
   double columns_volume_ = 0;  // of the solid, by its columns
   double started_ = 0;         // CPU time [s]
-  std::vector<std::unique_ptr<TreeStages>> trees_;
+  std::vector<TreeStages> trees_;
   std::map<int, std::vector<Start>> starts_;
 };
 

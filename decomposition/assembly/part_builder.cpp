@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <set>
 
+#include "catalog/mass_properties.h"
 #include "decomposition/geometry/convex_polygon.h"
 #include "decomposition/geometry/faceted_hull.h"
 
@@ -106,6 +108,36 @@ BuiltPart to_part(const FacetedHull& hull, const Cell& cell) {
   return built;
 }
 
+/// Vertices of which one must go for the rules' sake; none if the part keeps to them.
+std::vector<int> breaching_vertices(const catalog::ConvexPart& part, const PartRules& rules) {
+  std::vector<int> all(part.vertices.size());
+  std::iota(all.begin(), all.end(), 0);
+  const bool is_over_cap = static_cast<int>(part.vertex_count()) > rules.vertices ||
+                           (rules.faces > 0 && static_cast<int>(part.face_count()) > rules.faces);
+  if (is_over_cap) return all;
+  const auto at = [&](int v) { return to_vec3(part.vertices[static_cast<std::size_t>(v)]); };
+  double size = 0;
+  for (const int v : all)
+    for (const int w : all) size = std::fmax(size, norm(at(v) - at(w)));
+  for (const catalog::ConvexFace& face : part.faces) {
+    double width = size;
+    for (std::size_t k = 0; k < face.vertices.size(); ++k) {
+      const int a = face.vertices[k], b = face.vertices[(k + 1) % face.vertices.size()];
+      const Vec3 edge = at(b) - at(a);
+      if (norm(edge) < rules.shortest_edge * size) return {a, b};
+      double reach = 0;
+      for (const int v : face.vertices) reach = std::fmax(reach, norm(cross(edge, at(v) - at(a))) / norm(edge));
+      width = std::fmin(width, reach);
+    }
+    if (width < rules.narrowest_face * size) return face.vertices;
+  }
+  return {};
+}
+
+double volume_of(const catalog::ConvexPart& part) {
+  return catalog::volume_moments(catalog::triangulated(part)).volume;
+}
+
 }  // namespace
 
 int exact_side(const Plane& plane, const Vec3& p) {
@@ -159,6 +191,25 @@ std::optional<BuiltPart> build_part(const std::vector<Vec3>& points, const Cell&
       if (static_cast<int>(v) != *apexes.begin()) placed.push_back(hull->points[v]);
   }
   return std::nullopt;
+}
+
+std::optional<BuiltPart> build_part_by_rules(const std::vector<Vec3>& points, const Cell& cell, double snap_distance,
+                                             const PartRules& rules) {
+  std::optional<BuiltPart> built = build_part(points, cell, snap_distance);
+  while (built) {
+    const std::vector<int> breaching = breaching_vertices(built->part, rules);
+    if (breaching.empty()) return built;
+    std::optional<BuiltPart> best;
+    for (const int without : breaching) {
+      std::vector<Vec3> rest;
+      for (std::size_t v = 0; v < built->part.vertices.size(); ++v)
+        if (static_cast<int>(v) != without) rest.push_back(to_vec3(built->part.vertices[v]));
+      std::optional<BuiltPart> next = build_part(rest, cell, 0);
+      if (next && (!best || volume_of(next->part) > volume_of(best->part))) best = std::move(next);
+    }
+    built = std::move(best);
+  }
+  return built;
 }
 
 }  // namespace decomposition

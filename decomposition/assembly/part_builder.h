@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "catalog/convex_part.h"
+#include "decomposition/fit/part_rules.h"
 #include "decomposition/search/cut_tree.h"
 
 namespace decomposition {
@@ -19,6 +20,10 @@ struct BuiltPart {
 /// The hull of the points as a part: points within `snap_distance` [m] of a cut plane are put on it, never across it;
 /// coplanar triangles become one polygon; slivers are removed. Nothing if what remains is flat.
 std::optional<BuiltPart> build_part(const std::vector<Vec3>& points, const Cell& cell, double snap_distance);
+
+/// The same, with vertices left out, each time the one that costs the least volume, until the part keeps to the rules.
+std::optional<BuiltPart> build_part_by_rules(const std::vector<Vec3>& points, const Cell& cell, double snap_distance,
+                                             const PartRules& rules);
 
 /// Moves p by units in the last place until it lies on the inner side of every plane that it is within `distance` of,
 /// the sign of normal . p - offset taken in quadruple precision.

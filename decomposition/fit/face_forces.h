@@ -38,20 +38,31 @@ void gather_forces(const Solid& solid, const std::vector<Vec3>& points, const st
     const double area = norm(area_normal);
     const int n = std::clamp(static_cast<int>(std::sqrt(area) / (1.5 * solid.cell())) + 1, 1, sampling.along);
     const double shift_u = random.uniform(), shift_v = random.uniform();
-    double weight[3] = {0, 0, 0};
+    const Vec3 ga = solid.to_field(a), gb = solid.to_field(b), gc = solid.to_field(c);
+    const bool is_in_field = solid.is_in_field(ga) && solid.is_in_field(gb) && solid.is_in_field(gc);
+    const Vec3 along_u = gb - ga, along_v = gc - ga;
+    const double pitch = 1.0 / n;
+    double filled_sum = 0, filled_u = 0, filled_v = 0, sum_u = 0, sum_v = 0;
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
-        double u = (i + shift_u) / n, v = (j + shift_v) / n;
+        double u = (i + shift_u) * pitch, v = (j + shift_v) * pitch;
         if (u + v > 1) u = 1 - u, v = 1 - v;
-        const double filled = solid.occupancy(a + u * (b - a) + v * (c - a));
-        const double pull = 1 - (1 + sampling.rock_weight) * filled + sampling.steering;
-        weight[0] += (1 - u - v) * pull;
-        weight[1] += u * pull;
-        weight[2] += v * pull;
+        const Vec3 g = ga + u * along_u + v * along_v;
+        const double filled = is_in_field || solid.is_in_field(g) ? solid.field_at(g) : 0;
+        filled_sum += filled;
+        filled_u += u * filled;
+        filled_v += v * filled;
+        sum_u += u;
+        sum_v += v;
       }
+    // The pull is 1 - (1 + rock_weight) filled + steering.
+    const double gain = 1 + sampling.rock_weight, base = 1 + sampling.steering;
+    const double whole = base * n * n - gain * filled_sum, part_u = base * sum_u - gain * filled_u,
+                 part_v = base * sum_v - gain * filled_v;
+    const double weight[3] = {whole - part_u - part_v, part_u, part_v};
     for (int k = 0; k < 3; ++k) {
       const auto vertex = static_cast<std::size_t>(face[static_cast<std::size_t>(k)]);
-      forces.force[vertex] -= (weight[k] / (n * n)) * area_normal;
+      forces.force[vertex] -= (weight[k] * pitch * pitch) * area_normal;
       forces.share[vertex] += area / 3;
     }
   }

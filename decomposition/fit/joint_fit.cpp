@@ -18,8 +18,11 @@ constexpr double kReviveUntil = 0.85;     // share of the steps
 constexpr double kHighestRevival = 0.06;  // a point is put back at most this share of the diagonal above a face
 constexpr double kVolumeGain = 0.4;       // of the integral steering of the volume, per step and relative volume error
 constexpr double kLargestSteering = 0.5;
-constexpr double kSteepest = 0.3;    // sine between an edge and the cut it ends on, below which its motion is damped
-constexpr double kTurningArm = 0.1;  // share of the diagonal: holds cuts with small sections from turning fast
+constexpr double kSteepest = 0.3;     // sine between an edge and the cut it ends on, below which its motion is damped
+constexpr double kTurningArm = 0.1;   // share of the diagonal: holds cuts with small sections from turning fast
+constexpr double kHeldOffFrom = 1.5;  // times the smallest volume a part may have: where cuts begin to draw back
+constexpr double kHoldingOff = 1.5, kMostHoldingOff = 0.5;  // their push per relative lack of volume, and at most
+constexpr double kHoldOffAfter = 0.25;  // share of the steps: before, parts are still growing into their cells
 constexpr int kProjectionPasses = 25;
 
 class JointFitter {
@@ -37,7 +40,7 @@ class JointFitter {
         revive();
         if (!update()) return false;
       }
-      gather();
+      gather(s >= kHoldOffAfter * plan_.steps);
       move(step);
       if (!update()) return false;
       steer_volume(s);
@@ -59,23 +62,34 @@ class JointFitter {
 
   bool update() {
     sections_.build(partition_, kSameCorner * solid_.diagonal());
+    middles_.resize(partition_.sections.size());
+    for (std::size_t s = 0; s < middles_.size(); ++s) {
+      const std::vector<int>& polygon = sections_.polygon(static_cast<int>(s));
+      if (polygon.empty()) continue;
+      middles_[s] = {};
+      for (const int node : polygon)
+        middles_[s] +=
+            (1.0 / static_cast<double>(polygon.size())) * sections_.nodes()[static_cast<std::size_t>(node)].place;
+    }
     for (std::size_t a = 0; a < shapes_.size(); ++a)
       if (!shapes_[a].update(partition_, partition_.leaves[a], sections_, solid_.diagonal())) return false;
     return true;
   }
 
   /// Forces on all own points and, through the sections, on the free corners of the cuts.
-  void gather() {
+  void gather(bool holds_off) {
     const ForceSampling sampling{plan_.samples_along, plan_.rock_weight, steering_};
     node_force_.assign(sections_.nodes().size(), {});
     node_share_.assign(sections_.nodes().size(), 0.0);
     node_spread_.assign(sections_.nodes().size(), {});
+    votes_.assign(partition_.cuts.size(), {});
     for (std::size_t a = 0; a < shapes_.size(); ++a) {
       LeafShape& shape = shapes_[a];
       gather_forces(
           solid_, shape.points, shape.hull.faces(), sampling, random_,
           [&](const auto& face) { return shape.is_on_one_cut(face); }, forces_[a]);
       if (plan_.spread > 0) push_apart(a);
+      if (plan_.smallest_part > 0 && holds_off) hold_cuts_off(a);
       const std::size_t own = shape.own_count();
       for (std::size_t k = 0; k < shape.nodes.size(); ++k) {
         const auto node = static_cast<std::size_t>(shape.nodes[k]);
@@ -126,10 +140,24 @@ class JointFitter {
     }
   }
 
+  /// Cuts around a part that is nearly too small give way to it.
+  void hold_cuts_off(std::size_t a) {
+    const LeafShape& shape = shapes_[a];
+    const double lack = 1 - shape.hull.volume() / (kHeldOffFrom * plan_.smallest_part);
+    if (lack <= 0) return;
+    const std::vector<CutSide>& sides = partition_.leaves[a].sides;
+    for (std::size_t v = shape.own_count(); v < shape.points.size(); ++v)
+      for (std::size_t s = 0; s < sides.size(); ++s) {
+        if (!(shape.on_cut[v] >> (s % 64) & 1) || forces_[a].share[v] <= 0) continue;
+        const double push = std::fmin(kMostHoldingOff, kHoldingOff * lack) * forces_[a].share[v];
+        votes_[static_cast<std::size_t>(sides[s].cut)].push_back(
+            {shape.points[v], sides[s].is_reversed ? -push : push, forces_[a].share[v]});
+      }
+  }
+
   /// Hands the forces on derived nodes to the nodes that they come from, last made first, and collects what pushes each
   /// cut along its normal.
   void pass_forces_on() {
-    votes_.assign(partition_.cuts.size(), {});
     const std::vector<SectionNode>& nodes = sections_.nodes();
     for (std::size_t n = nodes.size(); n-- > 0;) {
       const SectionNode& node = nodes[n];
@@ -219,22 +247,37 @@ class JointFitter {
   }
 
   /// An own corner of a section at the place in the plane of its cut and inside the cell that the cut divides.
-  void put_corner(std::size_t section, std::size_t k, Vec3 place) {
-    const Cut& cut = partition_.cut_of(partition_.sections[section]);
+  void put_corner(std::size_t s, std::size_t k, Vec3 place) {
+    Section& section = partition_.sections[s];
+    const Cut& cut = partition_.cut_of(section);
+    const double margin = kOwnMargin * solid_.diagonal();
     place -= cut.plane.signed_distance(place) * cut.plane.normal;
+    Vec3 inside = place;
     for (int pass = 0; pass < kProjectionPasses; ++pass) {
       bool is_inside = true;
       for (const CutSide& side : cut.sides) {
         const Plane plane = partition_.plane_of(side);
-        const double excess = plane.signed_distance(place) + kOwnMargin * solid_.diagonal();
-        if (excess <= 0) continue;
+        const double excess = plane.signed_distance(inside) + margin;
+        if (excess <= 1e-3 * margin) continue;
+        is_inside = false;
         const Vec3 along = plane.normal - dot(plane.normal, cut.plane.normal) * cut.plane.normal;
-        if (const double length = dot(along, along); length > 1e-4)
-          place -= (1.001 * excess / length) * along, is_inside = false;
+        if (const double length = dot(along, along); length > kSteepest * kSteepest)
+          inside -= (excess / length) * along;
       }
-      if (is_inside) break;
+      if (is_inside) {
+        section.corners[k] = inside;
+        return;
+      }
     }
-    partition_.sections[section].corners[k] = place;
+    // No way in the plane that is short: towards the middle of the section, certain to end in the cell.
+    const Vec3 middle = middles_[s] - cut.plane.signed_distance(middles_[s]) * cut.plane.normal;
+    double share = 1;
+    for (const CutSide& side : cut.sides) {
+      const Plane plane = partition_.plane_of(side);
+      const double depth = -plane.signed_distance(middle) - margin, reach = dot(plane.normal, place - middle);
+      if (reach > depth) share = std::fmin(share, std::fmax(0.0, depth) / reach);
+    }
+    section.corners[k] = middle + share * (place - middle);
   }
 
   void steer_volume(int step) {
@@ -335,6 +378,7 @@ class JointFitter {
   const JointPlan& plan_;
   Random random_;
   SectionPolygons sections_;
+  std::vector<Vec3> middles_;  // of the sections
   std::vector<LeafShape> shapes_;
   std::vector<VertexForces> forces_;
   Corners own_velocity_, corner_velocity_;

@@ -18,6 +18,7 @@ struct JointPlan {
   double last_step = 0.001;  // ... to this
   double cut_rate = 0.2;     // of the cut planes' steps against the corners'; 0: planes stand still
   int samples_along = 4;     // at most this squared sample points a face
+  double smallest_part = 0;  // [m3]: cuts draw back from parts that come near this
   double volume = 0;         // of the union, steered to [m3]; 0: least symmetric difference only
   double rock_weight = 1;    // of rock left out against void taken in
   // Short edges and flat triangles are pushed wider, with this strength against the pull of rock or void.

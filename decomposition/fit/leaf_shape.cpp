@@ -26,17 +26,6 @@ bool LeafShape::update(const Partition& partition, const Leaf& leaf, SectionPoly
                          [&](const Vec3& p) { return norm(p - place) <= kSameCorner * diagonal; });
     });
   for (const int node : nodes) points.push_back(polygons.nodes()[static_cast<std::size_t>(node)].place);
-  return build(leaf.points.size(), diagonal);
-}
-
-bool LeafShape::update(const std::vector<Plane>& planes, const std::vector<Vec3>& own, double diagonal) {
-  cell = planes;
-  points = own;
-  nodes.clear();
-  return build(0, diagonal);
-}
-
-bool LeafShape::build(std::size_t first_on_cut, double diagonal) {
   if (points.size() < 4 || points.size() > SmallHull::kMaxPoints) return false;
   on_cut.assign(points.size(), 0);
   centre = {};
@@ -44,7 +33,7 @@ bool LeafShape::build(std::size_t first_on_cut, double diagonal) {
   double radius = 0;
   for (const Vec3& p : points) radius = std::fmax(radius, norm(p - centre));
   bent = points;
-  for (std::size_t v = first_on_cut; v < points.size(); ++v) {
+  for (std::size_t v = leaf.points.size(); v < points.size(); ++v) {
     const Vec3 arm = points[v] - centre;
     const double height = kBulge * diagonal * (2 - dot(arm, arm) / (radius * radius));  // a paraboloid
     for (std::size_t s = 0; s < cell.size(); ++s)

@@ -24,8 +24,6 @@ struct LeafShape {
 
   /// False if it is flat. `diagonal`: of the whole.
   bool update(const Partition& partition, const Leaf& leaf, SectionPolygons& polygons, double diagonal);
-  /// Of any points in a cell, all of them own.
-  bool update(const std::vector<Plane>& planes, const std::vector<Vec3>& own, double diagonal);
 
   std::size_t own_count() const { return points.size() - nodes.size(); }
   bool is_on_one_cut(const std::array<int, 3>& triangle) const { return common_cuts(triangle) != 0; }
@@ -34,7 +32,6 @@ struct LeafShape {
   double size() const;  // largest distance of two points
 
  private:
-  bool build(std::size_t first_on_cut, double diagonal);
   std::uint64_t common_cuts(const std::array<int, 3>& triangle) const {
     return on_cut[static_cast<std::size_t>(triangle[0])] & on_cut[static_cast<std::size_t>(triangle[1])] &
            on_cut[static_cast<std::size_t>(triangle[2])];

@@ -13,6 +13,7 @@ constexpr double kMomentum = 0.6;
 // vertices are exactly coplanar while the fit runs; assembly puts them on the plane.
 constexpr double kCellMargin = 2e-6;
 constexpr int kProjectionPasses = 25;
+constexpr double kLongestDetour = 4;  // of a projection / the largest distance to a plane
 constexpr int kReviveEvery = 12;      // steps between putting back vertices that fell inside the hull
 constexpr double kReviveUntil = 0.9;  // share of the steps
 constexpr double kVolumeGain = 0.4;   // of the integral steering of the volume, per step and relative volume error
@@ -142,15 +143,20 @@ class Fitter {
 }  // namespace
 
 Vec3 project_into_cell(Vec3 p, const std::vector<Plane>& cell, const Vec3& centre, double margin) {
+  const Vec3 given = p;
+  double farthest = 0;
   for (int pass = 0; pass < kProjectionPasses; ++pass) {
     bool is_inside = true;
     for (const Plane& plane : cell)
       if (const double excess = plane.signed_distance(p) + margin; excess > 1e-3 * margin) {
         p -= excess * plane.normal;
+        if (pass == 0) farthest = std::fmax(farthest, excess);
         is_inside = false;
       }
-    if (is_inside) return p;
+    if (is_inside && norm(p - given) <= kLongestDetour * farthest) return p;
+    if (is_inside) break;  // between planes at a small angle the way out of one leads far along the other
   }
+  p = given;
   double share = 1;  // of the way from the centre: certain to end in the cell
   for (const Plane& plane : cell) {
     const double depth = -plane.signed_distance(centre) - margin, reach = dot(plane.normal, p - centre);

@@ -16,7 +16,9 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kCornerPenalty = 2;    // on the loss of a section's corner: it does not come back
-constexpr double kDroppedPenalty = 3;   // on the loss of another's corner: it leaves a ledge
+constexpr double kDroppedPenalty = 2;   // on the loss of another's corner: it leaves a ledge
+constexpr double kGapPenalty = 6;       // the same of a corner inside the solid: it leaves a gap there
+constexpr double kInside = 0.95;        // occupancy
 constexpr double kLargestLoss = 0.002;  // of a part's volume for one flaw, while other means are left
 constexpr int kVolumeRounds = 8;
 constexpr double kLargestOffset = 0.01;  // of the volume correction / diagonal
@@ -43,17 +45,21 @@ std::vector<Flaw> find_flaws(const LeafShape& shape, const PartRules& rules, boo
   const double size = shape.size();
   const auto at = [&](int v) { return shape.points[static_cast<std::size_t>(v)]; };
   for (const std::vector<int>& face : faces) {
-    double width = kInfinity;
+    double width = kInfinity, shortest = kInfinity;
+    std::vector<int> ends;  // of the shortest edge
     for (std::size_t k = 0; k < face.size(); ++k) {
       const int a = face[k], b = face[(k + 1) % face.size()];
       const double length = norm(at(b) - at(a));
+      if (length < shortest) shortest = length, ends = {a, b};
       if (a < b && length < rules.shortest_edge * size)
         flaws.push_back({length / (rules.shortest_edge * size), {a, b}});
       double reach = 0;
       for (const int v : face) reach = std::fmax(reach, distance_to_line(at(v), at(a), at(b)));
       width = std::fmin(width, reach);
     }
-    if (width < rules.narrowest_face * size) flaws.push_back({width / (rules.narrowest_face * size), face});
+    // A triangle with a short edge is narrow wherever its third corner is.
+    const double least = rules.narrowest_face * size;
+    if (width < least) flaws.push_back({width / least, face.size() == 3 && shortest < least ? ends : face});
   }
   std::stable_sort(flaws.begin(), flaws.end(), [](const Flaw& a, const Flaw& b) { return a.severity < b.severity; });
   return flaws;
@@ -94,7 +100,8 @@ class LeafTrimmer {
     std::vector<Vec3> rest = shape_.bent;
     rest.erase(rest.begin() + vertex);
     if (!hull_.build(rest)) return kInfinity;
-    return std::fmax(0.0, shape_.hull.volume() - hull_.volume()) * (node ? kDroppedPenalty : 1);
+    const double penalty = !node ? 1 : (solid_.occupancy(node->place) > kInside ? kGapPenalty : kDroppedPenalty);
+    return penalty * std::fmax(0.0, shape_.hull.volume() - hull_.volume());
   }
 
   /// What all parts at a section lose without one of its corners.
@@ -185,24 +192,6 @@ int count_flaws(const Solid& solid, const Partition& partition, const PartRules&
   std::size_t count = 0;
   for (const LeafShape& shape : shapes_of(solid, partition)) count += find_flaws(shape, rules, true).size();
   return static_cast<int>(count);
-}
-
-void trim_points(std::vector<Vec3>& points, const std::vector<Plane>& cell, double diagonal, const PartRules& rules) {
-  SmallHull hull;
-  for (LeafShape shape; points.size() > 4 && shape.update(cell, points, diagonal);) {
-    const std::vector<Flaw> flaws = find_flaws(shape, rules, true);
-    if (flaws.empty()) return;
-    double least = kInfinity;
-    int chosen = -1;
-    for (const int v : flaws.front().vertices) {
-      std::vector<Vec3> rest = shape.bent;
-      rest.erase(rest.begin() + v);
-      const double lost = hull.build(rest) ? shape.hull.volume() - hull.volume() : kInfinity;
-      if (lost < least) least = lost, chosen = v;
-    }
-    if (chosen < 0) return;
-    points.erase(points.begin() + chosen);
-  }
 }
 
 void drop_dead_points(const Solid& solid, Partition& partition) {

@@ -27,9 +27,6 @@ enum class Trim {
 /// `most` points a leaf for flaws. Returns how many own points each leaf has lost; empty if a part collapsed.
 std::vector<int> trim(const Solid& solid, Partition& partition, const PartRules& rules, Trim what, int most = 1000);
 
-/// The same for points in a cell that stand alone.
-void trim_points(std::vector<Vec3>& points, const std::vector<Plane>& cell, double diagonal, const PartRules& rules);
-
 /// Number of breaches of the rules.
 int count_flaws(const Solid& solid, const Partition& partition, const PartRules& rules);
 

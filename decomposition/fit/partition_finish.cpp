@@ -22,7 +22,8 @@ constexpr int kMostPushes = 400;                            // until a bound is 
 constexpr int kTrimEvery = 4;                               // rounds
 constexpr int kLastCycles = 8;                              // of trimming and pushing, until both hold
 constexpr double kPushesToOneMore = 15;                     // before they grow by their first size
-constexpr int kLastRounds = 4;                              // of trimming and setting the volume
+constexpr double kLastMargin = 1.02;
+constexpr int kLastRounds = 4;  // of trimming and setting the volume
 
 /// Adds own points inside the parts: the fit puts them where they are of use.
 void add_dead_points(const Solid& solid, Partition& partition, const std::vector<int>& counts) {
@@ -63,9 +64,12 @@ bool fit_by_rules(const Solid& solid, Partition& partition, const JointPlan& pla
       drop_dead_points(solid, partition);
     if (!fit_jointly(solid, partition, settling)) return false;
   }
+  PartRules certain = rules;  // the last triangulation of a face may be another
+  certain.shortest_edge *= kLastMargin;
+  certain.narrowest_face *= kLastMargin;
   drop_dead_points(solid, partition);
   for (int round = 0; round < kLastRounds; ++round) {
-    if (trim(solid, partition, rules, Trim::flaws).empty() || trim(solid, partition, rules, Trim::all).empty())
+    if (trim(solid, partition, certain, Trim::flaws).empty() || trim(solid, partition, certain, Trim::all).empty())
       return false;
     if (plan.volume <= 0 || round + 1 == kLastRounds) break;
     correct_volume(solid, partition, plan.volume);

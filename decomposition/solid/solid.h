@@ -26,19 +26,31 @@ class Solid {
 
   /// Share of the neighbourhood of p that is filled, 0 to 1, trilinear between cell centres.
   double occupancy(const Vec3& p) const {
-    const double u = (p.x - origin_.x) * cells_per_length_ - 0.5, v = (p.y - origin_.y) * cells_per_length_ - 0.5,
-                 w = (p.z - origin_.z) * cells_per_length_ - 0.5;
-    if (!(u >= 0 && v >= 0 && w >= 0 && u < nx_ - 1 && v < ny_ - 1 && w < nz_ - 1)) return 0;
-    const int i = static_cast<int>(u), j = static_cast<int>(v), k = static_cast<int>(w);
-    const double fx = u - i, fy = v - j, fz = w - k;
+    const Vec3 g = to_field(p);
+    return is_in_field(g) ? field_at(g) : 0;
+  }
+
+  /// Coordinates in cells of the field, counted from the centre of the first; field_at needs is_in_field.
+  Vec3 to_field(const Vec3& p) const {
+    return {(p.x - origin_.x) * cells_per_length_ - 0.5, (p.y - origin_.y) * cells_per_length_ - 0.5,
+            (p.z - origin_.z) * cells_per_length_ - 0.5};
+  }
+  bool is_in_field(const Vec3& g) const {
+    return g.x >= 0 && g.y >= 0 && g.z >= 0 && g.x < nx_ - 1 && g.y < ny_ - 1 && g.z < nz_ - 1;
+  }
+  double field_at(const Vec3& g) const {
+    const int i = static_cast<int>(g.x), j = static_cast<int>(g.y), k = static_cast<int>(g.z);
+    const auto fx = static_cast<float>(g.x - i), fy = static_cast<float>(g.y - j), fz = static_cast<float>(g.z - k);
     const std::uint8_t* c00 = &field_[(static_cast<std::size_t>(j) * nx_ + i) * nz_ + k];
     const std::uint8_t* c10 = c00 + nz_;
     const std::uint8_t* c01 = c00 + static_cast<std::size_t>(nx_) * nz_;
     const std::uint8_t* c11 = c01 + nz_;
-    const auto along_z = [&](const std::uint8_t* c) { return c[0] + fz * (c[1] - c[0]); };
-    const double low = along_z(c00) + fx * (along_z(c10) - along_z(c00));
-    const double high = along_z(c01) + fx * (along_z(c11) - along_z(c01));
-    return (low + fy * (high - low)) * (1 / 255.0);
+    const auto along_z = [fz](const std::uint8_t* c) {
+      return static_cast<float>(c[0]) + fz * static_cast<float>(c[1] - c[0]);
+    };
+    const float low = along_z(c00) + fx * (along_z(c10) - along_z(c00));
+    const float high = along_z(c01) + fx * (along_z(c11) - along_z(c01));
+    return (low + fy * (high - low)) * (1 / 255.0f);
   }
 
   const std::vector<Vec3>& vertices() const { return vertices_; }
