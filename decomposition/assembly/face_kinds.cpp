@@ -9,8 +9,7 @@
 namespace decomposition {
 namespace {
 
-constexpr double kSmallestLedge = 0.005;  // share of a face's area: smaller ledges are left in the inner face
-constexpr double kReuseShare = 0.02;      // a split within this share of the face's size of a corner goes through it
+constexpr double kReuseShare = 0.02;  // a split within this share of the face's size of a corner goes through it
 
 /// Coordinates in the plane of a cut.
 struct CutFrame {
@@ -54,15 +53,15 @@ struct Line {
 
 class FaceSplitter {
  public:
-  FaceSplitter(BuiltPart& built, const CutFrame& frame, int vertex_cap, int face_cap)
-      : built_(built), frame_(frame), vertex_cap_(vertex_cap), face_cap_(face_cap) {}
+  FaceSplitter(BuiltPart& built, const CutFrame& frame, const SplitLimits& limits)
+      : built_(built), frame_(frame), limits_(limits) {}
 
   /// Splits what stands out beyond the convex polygon `cover` off the face, largest piece first.
   void split_beyond(std::size_t face, const Polygon2& cover) {
     const double whole = area(outline(frame_, built_.part, built_.part.faces[face]));
     while (true) {
       const Polygon2 polygon = outline(frame_, built_.part, built_.part.faces[face]);
-      double largest = kSmallestLedge * whole;
+      double largest = limits_.smallest_ledge * whole;
       std::size_t chosen = cover.size();
       for (std::size_t k = 0; k < cover.size(); ++k) {
         const double beyond = area(polygon) - area(keep_behind(polygon, edge_line(cover, k)));
@@ -113,9 +112,9 @@ class FaceSplitter {
     }
     if (runs != 1 || std::none_of(height.begin(), height.end(), [](double h) { return h < 0; })) return false;
     const std::size_t end = (start + run_length) % n, before = (start + n - 1) % n, last = (end + n - 1) % n;
-    if (static_cast<int>(part.faces.size()) >= face_cap_) return false;
+    if (static_cast<int>(part.faces.size()) >= limits_.faces) return false;
     const bool cuts_first = height[before] < 0, cuts_last = height[end] < 0;
-    if (static_cast<int>(part.vertices.size()) + cuts_first + cuts_last > vertex_cap_) return false;
+    if (static_cast<int>(part.vertices.size()) + cuts_first + cuts_last > limits_.vertices) return false;
     const int entry =
         cuts_first ? add_vertex(polygon[before], polygon[start], share_along(height, before, start)) : polygon[before];
     const int leave =
@@ -158,7 +157,7 @@ class FaceSplitter {
 
   BuiltPart& built_;
   const CutFrame& frame_;
-  int vertex_cap_, face_cap_;
+  const SplitLimits& limits_;
 };
 
 /// Corners of all overlaps of the polygon with the others.
@@ -180,7 +179,7 @@ std::vector<Polygon2> outlines(const CutFrame& frame, const std::vector<BuiltPar
 
 }  // namespace
 
-CutCoverage mark_faces(std::vector<BuiltPart>& parts, const std::vector<Plane>& cuts, int vertex_cap, int face_cap) {
+CutCoverage mark_faces(std::vector<BuiltPart>& parts, const std::vector<Plane>& cuts, const SplitLimits& limits) {
   CutCoverage coverage;
   for (std::size_t c = 0; c < cuts.size(); ++c) {
     const CutFrame frame(cuts[c]);
@@ -195,7 +194,7 @@ CutCoverage mark_faces(std::vector<BuiltPart>& parts, const std::vector<Plane>& 
         Polygon2 cover;
         for (const int corner : convex_hull(corners, 1e-6 * std::sqrt(area(polygons[side][k]))))
           cover.push_back(corners[static_cast<std::size_t>(corner)]);
-        if (cover.size() >= 3) FaceSplitter(parts[p], frame, vertex_cap, face_cap).split_beyond(f, cover);
+        if (cover.size() >= 3) FaceSplitter(parts[p], frame, limits).split_beyond(f, cover);
       }
     const CutSides pieces = faces_on(parts, static_cast<int>(c), cuts[c]);
     for (int side = 0; side < 2; ++side)

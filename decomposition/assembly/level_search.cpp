@@ -34,6 +34,7 @@ constexpr double kTrialFirst = 0.02, kTrialLast = 0.001;
 constexpr int kFinalSteps = 1200;
 constexpr double kFinalFirst = 0.01, kFinalLast = 0.0007;  // share of the diagonal
 constexpr double kCutRate = 0.5;
+constexpr double kLargeLedge = 0.2;  // share of a face's area: splitting makes new small faces
 constexpr double kBoundWeight = 4;   // of what a bound forbids against what it allows, while the bound is not kept yet
 constexpr int kFitSteps = 500;       // of parts fitted alone, beside exact pieces
 constexpr double kFitTries = 3;      // at effort 1
@@ -314,9 +315,11 @@ FoundLevel LevelSearch::find(int parts_asked) {
     for (const BuiltPart& part : level.parts)
       for (std::size_t k = 0; k < part.cell.cuts.size(); ++k)
         cuts[static_cast<std::size_t>(part.cell.cuts[k])] = part.cell.planes[k];
-    // Parts fitted jointly share their outlines on the cuts: nothing to split.
-    const CutCoverage coverage = mark_faces(level.parts, cuts, is_apart ? options_.vertex_cap : 0,
-                                            is_apart && options_.face_cap > 0 ? options_.face_cap : 1000);
+    SplitLimits limits{options_.vertex_cap};
+    if (options_.face_cap > 0) limits.faces = options_.face_cap;
+    // Parts fitted jointly share their outlines on the cuts, but for corners that the rules have cost some.
+    if (!is_apart) limits.smallest_ledge = kLargeLedge;
+    const CutCoverage coverage = mark_faces(level.parts, cuts, limits);
     if (coverage.covered_area > 0) level.ledge_area = coverage.ledge_area / coverage.covered_area;
     return level;
   }

@@ -106,7 +106,7 @@ class LeafTrimmer {
 
   /// What all parts at a section lose without one of its corners.
   double loss_of_corner(const SectionNode& node) {
-    if (polygons_.polygon(node.section).size() <= 4) return kInfinity;
+    if (polygons_.polygon(node.section).size() <= 3) return kInfinity;
     std::vector<Vec3>& corners = partition_.sections[static_cast<std::size_t>(node.section)].corners;
     const std::vector<Vec3> whole = corners;
     const double before = volume_at(node.section);

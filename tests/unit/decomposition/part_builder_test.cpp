@@ -56,11 +56,11 @@ TEST(FaceKinds, UncoveredRimIsCountedWhereNoVertexIsLeft) {
                                   *build_part(box(1, 0, 1), Cell{{cut.reversed()}, {0}}, 1e-6)};
   };
   std::vector<BuiltPart> capped = make();
-  const CutCoverage tight = mark_faces(capped, {cut}, 8);
+  const CutCoverage tight = mark_faces(capped, {cut}, {8});
   EXPECT_NEAR(tight.covered_area, 1, 1e-12);
   EXPECT_NEAR(tight.ledge_area, 1, 1e-12);  // the lower top is mostly bare: outer, its covered area is the ledge
   std::vector<BuiltPart> roomy = make();
-  const CutCoverage split = mark_faces(roomy, {cut}, 12);
+  const CutCoverage split = mark_faces(roomy, {cut}, {12});
   EXPECT_NEAR(split.ledge_area, 0, 1e-12);
   double inner = 0;
   for (const BuiltPart& built : roomy) {
