@@ -31,6 +31,7 @@ constexpr int kFewParts = 8, kMostTimes = 4;
 constexpr int kMovingSteps = 150;  // of the joint fits that move a tree's cuts while it grows
 constexpr int kTrialSteps = 400;   // of the joint fits that compare trees
 constexpr double kTrialFirst = 0.02, kTrialLast = 0.001;
+constexpr double kFinals = 2;  // of the best starts are finished, at effort 1
 constexpr int kFinalSteps = 1200;
 constexpr double kFinalFirst = 0.01, kFinalLast = 0.0007;  // share of the diagonal
 constexpr double kCutRate = 0.5;
@@ -216,7 +217,7 @@ const std::vector<LevelSearch::Start>& LevelSearch::starts(int count) {
   return starts_[count] = std::move(result);
 }
 
-std::vector<BuiltPart> LevelSearch::fitted_jointly(Partition partition) const {
+LevelSearch::Finish LevelSearch::finished(Partition partition) const {
   JointPlan plan = joint_plan();
   plan.steps = kFinalSteps * times_for_few(static_cast<int>(partition.leaves.size()));
   plan.first_step = kFinalFirst;
@@ -228,7 +229,8 @@ std::vector<BuiltPart> LevelSearch::fitted_jointly(Partition partition) const {
     if (!fit_to_bound(solid_, partition, plan, rules(), bound)) return {};
   }
   const std::vector<std::vector<Vec3>> points = part_points(solid_, partition);
-  std::vector<BuiltPart> parts;
+  Finish finish;
+  finish.misfit = joint_misfit(solid_, partition);
   for (std::size_t a = 0; a < points.size(); ++a) {
     Cell cell;
     cell.planes = partition.planes_of(partition.leaves[a].sides);
@@ -239,17 +241,25 @@ std::vector<BuiltPart> LevelSearch::fitted_jointly(Partition partition) const {
                                         ? build_part(points[a], cell, snap)
                                         : build_part_by_rules(points[a], cell, snap, rules());
     if (!part) return {};
-    parts.push_back(std::move(*part));
+    finish.parts.push_back(std::move(*part));
   }
-  return parts;
+  return finish;
 }
 
 FoundLevel LevelSearch::found_jointly(int count) {
-  for (const Start& start : starts(count)) {
-    FoundLevel level;
-    level.parts = fitted_jointly(start.partition);
-    if (!is_acceptable(level.parts)) continue;
-    return level;
+  const std::vector<Start>& all = starts(count);
+  const auto at_once = static_cast<std::size_t>(std::max(1.0, std::round(kFinals * std::sqrt(options_.effort))));
+  for (std::size_t first = 0; first < all.size(); first += at_once) {
+    std::vector<Finish> finishes(std::min(at_once, all.size() - first));
+    parallel_for(static_cast<int>(finishes.size()), threads(), [&](int k) {
+      const auto f = static_cast<std::size_t>(k);
+      finishes[f] = finished(all[first + f].partition);
+      if (!is_acceptable(finishes[f].parts)) finishes[f].parts.clear();
+    });
+    Finish* best = nullptr;
+    for (Finish& finish : finishes)
+      if (!finish.parts.empty() && (!best || finish.misfit < best->misfit)) best = &finish;
+    if (best) return {std::move(best->parts), 0};
   }
   return {};
 }

@@ -54,7 +54,12 @@ class LevelSearch {
   const std::vector<Start>& starts(int count);
   std::vector<Start> starts_from(std::size_t tree, int count);
 
-  std::vector<BuiltPart> fitted_jointly(Partition partition) const;
+  /// The finished parts of a start, and their misfit; no parts if one collapsed.
+  struct Finish {
+    std::vector<BuiltPart> parts;
+    double misfit = 0;
+  };
+  Finish finished(Partition partition) const;
   FoundLevel found_jointly(int count);
   FoundLevel found_apart(const CutTree& tree, int count) const;
   std::optional<BuiltPart> fitted_alone(const Piece& piece, int number) const;

@@ -124,6 +124,47 @@ inline void expect_matching_cuts(const catalog::LevelOfDetail& level, double tol
   }
 }
 
+/// No edge of a part is shorter, and no face narrower, than that share of the part's size (of size_of).
+inline void expect_no_slivers(const catalog::LevelOfDetail& level, double shortest_edge, double narrowest_face) {
+  for (const catalog::ConvexPart& part : level.parts) {
+    const double size = size_of(part);
+    for (const catalog::ConvexFace& face : part.faces) {
+      double width = size;
+      for (std::size_t k = 0; k < face.vertices.size(); ++k) {
+        const catalog::Point& a = part.vertices[face.vertices[k]];
+        const catalog::Point& b = part.vertices[face.vertices[(k + 1) % face.vertices.size()]];
+        const double length = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+        EXPECT_GE(length, shortest_edge * size);
+        double reach = 0;  // of the face from the line through this edge
+        for (const int v : face.vertices) {
+          const catalog::Point& p = part.vertices[v];
+          catalog::Point twice{};
+          for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3, l = (i + 2) % 3;
+            twice[i] = (b[j] - a[j]) * (p[l] - a[l]) - (b[l] - a[l]) * (p[j] - a[j]);
+          }
+          reach = std::max(reach, std::hypot(twice[0], twice[1], twice[2]) / length);
+        }
+        width = std::min(width, reach);
+      }
+      EXPECT_GE(width, narrowest_face * size);
+    }
+  }
+}
+
+/// Whether a point lies in a part, on its faces included, without any tolerance.
+inline bool holds(const catalog::ConvexPart& part, const catalog::Point& p) {
+  for (const catalog::ConvexFace& face : part.faces)
+    if (side(face.plane, p) > 0) return false;
+  return true;
+}
+
+inline bool holds(const catalog::LevelOfDetail& level, const catalog::Point& p) {
+  for (const catalog::ConvexPart& part : level.parts)
+    if (holds(part, p)) return true;
+  return false;
+}
+
 inline double total_volume(const catalog::LevelOfDetail& level) {
   double sum = 0;
   for (const catalog::ConvexPart& part : level.parts) sum += volume(part);
