@@ -45,18 +45,27 @@ struct LevelFigures {
   int most_vertices = 0, most_faces = 0;  // of a part
 };
 
-/// Divides the solid into convex parts: a partition by cut planes (binary space partition), each part the hull of free
-/// points in its cell, placed so that the symmetric difference to the mesh is least and the volume is the mesh's.
-/// A part has at most `vertex_cap` vertices. Parts never overlap: every vertex lies exactly on its side of every cut,
-/// and faces on a cut carry its plane bit for bit. A convex mesh within the cap comes back as its own hull, and a solid
-/// of few flat facets as the exact convex pieces that the search finds. The error is measured (measure_error).
+/// Divides the solid into convex parts: a partition by cut planes (binary space partition). All parts are fitted at
+/// once: their own vertices, the corners of one convex polygon on every cut, which the parts of both its sides share,
+/// and the cut planes move until the symmetric difference to the mesh is least (volume-true: at the mesh's volume).
+/// Parts never overlap: every vertex lies exactly on its side of every cut, and faces on a cut carry its plane bit for
+/// bit. Sharing leaves no ledges; where a rule has cost one side a corner, LevelFigures::ledge_area says how much.
+/// A part has at most `vertex_cap` vertices and, if asked for, `face_cap` faces. No edge is shorter than 1 % and no
+/// face narrower than 2 % of the part's size (largest distance of two vertices), but for exact pieces, for faces split
+/// along a large ledge, and where a bound (`mode`) leaves no room. No part is thinner or smaller than asked for; where
+/// that leaves no room the level has fewer parts.
+/// `enclosing`: every point of the mesh lies in a part, without tolerance. `inscribed`: no part reaches deeper into the
+/// void than 1e-5 of the diagonal.
+/// A convex mesh within the caps comes back as its own hull, and a solid of few flat facets as the exact convex pieces
+/// that the search finds; pieces beside exact ones, and those of shells whose sections are no convex polygons, are
+/// fitted one by one, each to its own volume, with their cuts' ledges. The error is measured (measure_error).
 /// Provenance: `options` holds the options and the LevelFigures as JSON,
 /// {"options": {...}, "measured": {...}}; the caller fills in the rest.
 /// Throws catalog::InputError for a mesh that bounds no solid and for options out of range.
 catalog::LevelOfDetail decompose(const catalog::TriangleMesh& mesh, const DecompositionOptions& options = {});
 
-/// Several levels at once, sharing one search: the cuts of a level are the first cuts of the next. `options.parts` is
-/// not used. Each level is the same as decompose() would give for it alone.
+/// Several levels at once, sharing one search. `options.parts` is not used. Each level is the same as decompose() would
+/// give for it alone (without a time budget); the cuts move from level to level, so levels are not nested.
 std::vector<catalog::LevelOfDetail> decompose_ladder(const catalog::TriangleMesh& mesh,
                                                      const std::vector<int>& part_counts,
                                                      const DecompositionOptions& options = {});

@@ -35,11 +35,12 @@ constexpr double kFinals = 2;  // of the best starts are finished, at effort 1
 constexpr int kFinalSteps = 1200;
 constexpr double kFinalFirst = 0.01, kFinalLast = 0.0007;  // share of the diagonal
 constexpr double kCutRate = 0.5;
-constexpr double kLargeLedge = 0.2;  // share of a face's area: splitting makes new small faces
-constexpr double kBoundWeight = 4;   // of what a bound forbids against what it allows, while the bound is not kept yet
-constexpr int kFitSteps = 500;       // of parts fitted alone, beside exact pieces
-constexpr double kFitTries = 3;      // at effort 1
-constexpr double kExactSnap = 1e-9;  // of the size: fitted points touch their cut planes already
+constexpr double kLargeLedge = 0.2;   // share of a face's area: splitting makes new small faces
+constexpr double kBetterApart = 1.1;  // joint error over that of single pieces
+constexpr double kBoundWeight = 4;    // of what a bound forbids against what it allows, while the bound is not kept yet
+constexpr int kFitSteps = 500;        // of parts fitted alone, beside exact pieces
+constexpr double kFitTries = 3;       // at effort 1
+constexpr double kExactSnap = 1e-9;   // of the size: fitted points touch their cut planes already
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -286,6 +287,21 @@ std::optional<BuiltPart> LevelSearch::fitted_alone(const Piece& piece, int numbe
   return build_part_by_rules(fit.points, piece.cell, snap, rules());
 }
 
+/// Exact pieces stay as they are. Sections of shells and the like are no convex polygons, which parts fitted jointly
+/// have to share: where they fit worse than short fits of single pieces do, they go apart.
+bool LevelSearch::fits_better_apart(const CutTree& tree, int count) {
+  double apart = 0;
+  int exact = 0;
+  for (const int piece : tree.pieces(count)) {
+    exact += tree.piece(piece).is_exact;
+    apart += tree.piece(piece).error;
+  }
+  // A piece fitted alone is volume-true; only exact ones keep a bound as well.
+  if (exact > 0) return options_.mode == FitMode::volume_true || exact == count;
+  return options_.mode == FitMode::volume_true && !starts(count).empty() &&
+         solid_.volume() + starts(count).front().misfit > kBetterApart * apart;
+}
+
 FoundLevel LevelSearch::found_apart(const CutTree& tree, int count) const {
   const std::vector<int> pieces = tree.pieces(count);
   std::vector<std::optional<BuiltPart>> made(pieces.size());
@@ -307,14 +323,12 @@ FoundLevel LevelSearch::find(int parts_asked) {
   for (int count = parts_asked; count > 0; --count) {
     FoundLevel level;
     bool is_apart = false;
-    if (solid_.is_faceted()) {
-      // All trees find the exact pieces of a drawn solid, if it has any.
-      const CutTree& tree = stage(0, count);
-      const std::vector<int> pieces = tree.pieces(count);
-      if (static_cast<int>(pieces.size()) < count) continue;  // the tree has no more
-      is_apart = std::any_of(pieces.begin(), pieces.end(), [&](int piece) { return tree.piece(piece).is_exact; });
-      if (is_apart) level = found_apart(tree, count);
-    }
+    // All trees find the exact pieces of a drawn solid, if it has any.
+    const std::size_t tree = solid_.is_faceted() || starts(count).empty() ? 0 : starts(count).front().tree;
+    const CutTree& cut = stage(tree, count);
+    if (static_cast<int>(cut.pieces(count).size()) < count) continue;  // the tree has no more
+    is_apart = fits_better_apart(cut, count);
+    if (is_apart) level = found_apart(cut, count);
     if (!is_apart) level = found_jointly(count);
     if (level.parts.empty()) continue;
     std::vector<Plane> cuts;

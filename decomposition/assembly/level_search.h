@@ -61,6 +61,7 @@ class LevelSearch {
   };
   Finish finished(Partition partition) const;
   FoundLevel found_jointly(int count);
+  bool fits_better_apart(const CutTree& tree, int count);
   FoundLevel found_apart(const CutTree& tree, int count) const;
   std::optional<BuiltPart> fitted_alone(const Piece& piece, int number) const;
   bool is_acceptable(const std::vector<BuiltPart>& parts) const;

@@ -192,6 +192,32 @@ BoundPoints bound_points(const Solid& solid, const Partition& partition, bool hu
   return result;
 }
 
+int add_points_inside(const Solid& solid, const Partition& partition, double tolerance, BoundPoints& points) {
+  SectionPolygons polygons;
+  polygons.build(partition, kSameCorner * solid.diagonal());
+  int added = 0;
+  for (std::size_t a = 0; a < partition.leaves.size(); ++a) {
+    LeafShape shape;
+    if (!shape.update(partition, partition.leaves[a], polygons, solid.diagonal())) continue;
+    std::vector<Plane> within = shape.cell;
+    for (const Breach& outer : outer_triangles(shape)) {
+      const Vec3& p = shape.points[static_cast<std::size_t>(outer.triangle[0])];
+      within.push_back({outer.normal, dot(outer.normal, p) - tolerance});
+    }
+    for (const catalog::Triangle& face : solid.faces()) {
+      std::vector<Vec3> triangle, piece;
+      for (const int v : face) triangle.push_back(solid.vertices()[static_cast<std::size_t>(v)]);
+      add_clipped(triangle, within, piece);
+      if (piece.empty()) continue;
+      Vec3 middle;
+      for (const Vec3& p : piece) middle += (1.0 / static_cast<double>(piece.size())) * p;
+      points.in_cell[a].push_back(middle);
+      ++added;
+    }
+  }
+  return added;
+}
+
 double push_towards_bound(const Solid& solid, Partition& partition, Bound bound, const BoundPoints& points,
                           double slack, double eagerness) {
   SectionPolygons polygons;

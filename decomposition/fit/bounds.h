@@ -25,6 +25,10 @@ struct BoundPoints {
 /// `hulls_only`: of each cell the corners of their convex hull only.
 BoundPoints bound_points(const Solid& solid, const Partition& partition, bool hulls_only);
 
+/// Adds the middles of the pieces of the solid's surface that lie deeper than `tolerance` [m] in a part: where edges of
+/// a part run through the surface between its vertices. Returns how many.
+int add_points_inside(const Solid& solid, const Partition& partition, double tolerance, BoundPoints& points);
+
 /// Moves own points and corners so that outer faces and edges of sections that break the bound come nearer to keeping
 /// it. `slack` [m] is kept beyond it; every move is `eagerness` times what one face alone would need. Returns the
 /// largest breach found before, negative if there is none; infinite if a part collapsed.

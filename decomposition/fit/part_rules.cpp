@@ -20,8 +20,8 @@ constexpr double kDroppedPenalty = 2;   // on the loss of another's corner: it l
 constexpr double kGapPenalty = 6;       // the same of a corner inside the solid: it leaves a gap there
 constexpr double kInside = 0.95;        // occupancy
 constexpr double kLargestLoss = 0.002;  // of a part's volume for one flaw, while other means are left
-constexpr int kVolumeRounds = 8;
-constexpr double kLargestOffset = 0.01;  // of the volume correction / diagonal
+constexpr int kVolumeRounds = 12;
+constexpr double kLargestOffset = 0.1;  // of the volume correction / diagonal
 constexpr double kVolumeTolerance = 1e-6;
 
 /// Vertices of which one must go, and how badly: below 1 is a breach.

@@ -18,6 +18,7 @@ constexpr int kStepsARound = 5, kStepsWithNew = 16;
 constexpr int kPushesARound = 3;
 constexpr double kBoundFirst = 0.004, kBoundLast = 0.0002;  // share of the diagonal
 constexpr double kSlack = 1e-7;                             // share of the diagonal kept beyond a bound
+constexpr double kInsideTolerance = 1e-5;                   // share of the diagonal: of edges through the surface
 constexpr int kMostPushes = 400;                            // until a bound is kept to the last point
 constexpr int kTrimEvery = 4;                               // rounds
 constexpr int kLastCycles = 8;                              // of trimming and pushing, until both hold
@@ -79,12 +80,16 @@ bool fit_by_rules(const Solid& solid, Partition& partition, const JointPlan& pla
 
 namespace {
 
-bool push_to_bound(const Solid& solid, Partition& partition, Bound bound, const BoundPoints& points) {
+/// `points` grows by what is found inside a part between them.
+bool push_to_bound(const Solid& solid, Partition& partition, Bound bound, BoundPoints& points) {
   for (int push = 0; push < kMostPushes; ++push) {
     const double breach =
         push_towards_bound(solid, partition, bound, points, 2 * kSlack * solid.diagonal(), 1 + push / kPushesToOneMore);
-    if (breach <= -kSlack * solid.diagonal()) return true;
     if (!std::isfinite(breach)) return false;
+    if (breach > -kSlack * solid.diagonal()) continue;
+    if (bound == Bound::holds_solid ||
+        add_points_inside(solid, partition, kInsideTolerance * solid.diagonal(), points) == 0)
+      return true;
   }
   return false;
 }
@@ -93,7 +98,7 @@ bool push_to_bound(const Solid& solid, Partition& partition, Bound bound, const 
 
 bool fit_to_bound(const Solid& solid, Partition& partition, const JointPlan& plan, const PartRules& rules,
                   Bound bound) {
-  const BoundPoints points = bound_points(solid, partition, bound == Bound::holds_solid);
+  BoundPoints points = bound_points(solid, partition, bound == Bound::holds_solid);
   PartRules stricter = rules;
   stricter.shortest_edge *= kMargin;
   stricter.narrowest_face *= kMargin;
