@@ -147,6 +147,8 @@ RingShape read_ring(TomlTable table) {
   ring.diameter = table.quantity("diameter", Dimension::length, kPositive);
   const Bounds thin{0, ring.diameter / 2, true, "more than 0, less than half the ring's diameter"};
   ring.wire = table.quantity("wire", Dimension::length, thin);
+  if (!(ring.wire < ring.diameter / 2))
+    table.refuse("wire", "wire closes the ring's hole; it must be " + std::string(thin.words));
   if (table.has("segments")) ring.segments = static_cast<int>(table.integer("segments", 4, kMostParts));
   if (table.has("sides")) ring.sides = static_cast<int>(table.integer("sides", 3, dem_gpu::kMaxFaceCorners));
   table.finish();

@@ -39,10 +39,12 @@ void read_run(TomlTable table, dem_gpu::RunControl& run) {
   table.finish();
 }
 
-void read_materials(TomlTable& file, Scene& scene) {
+void read_materials(TomlTable& file, SceneDescription& description) {
+  Scene& scene = description.scene;
   for (TomlTable& table : file.named_tables("material")) {
     dem_gpu::Material material;
     material.name = table.name();
+    description.places["material '" + material.name + "'"] = table.place();
     material.density = table.quantity("density", Dimension::density, kPositive);
     material.youngs_modulus = table.quantity("youngs_modulus", Dimension::pressure, kPositive, material.youngs_modulus);
     const Bounds poisson{-1, 0.5, true, "more than -1, at most 0.5"};
@@ -105,6 +107,7 @@ void read_contacts(TomlTable& file, Scene& scene) {
 void read_contact_law(TomlTable table, SceneDescription& description) {
   Scene& scene = description.scene;
   StiffnessChoice& stiffness = description.stiffness;
+  description.places["contact law"] = table.place();
   if (!table.has("polyhedra") || table.choice("polyhedra", {"depth_potential", "volume"}) == 0) {
     dem_gpu::DepthPotential law;
     law.depth_cap = table.quantity("depth_cap", Dimension::ratio, kShare, law.depth_cap);
@@ -139,14 +142,15 @@ void read_contact_law(TomlTable table, SceneDescription& description) {
   table.finish();
 }
 
-void read_outflow(TomlTable& file, Scene& scene) {
+void read_outflow(TomlTable& file, SceneDescription& description) {
   std::optional<TomlTable> table = file.optional_table("outflow");
   if (!table) return;
+  description.places["outflow: "] = table->place();
   dem_gpu::Outflow outflow;
   if (table->has("direction")) outflow.direction = to_vec3(table->direction("direction"));
   outflow.height = table->quantity("height", Dimension::length);
   table->finish();
-  scene.outflow = outflow;
+  description.scene.outflow = outflow;
 }
 
 dem_gpu::PeriodicSpan read_span(TomlTable& table, std::string_view axis) {
@@ -159,16 +163,17 @@ dem_gpu::PeriodicSpan read_span(TomlTable& table, std::string_view axis) {
   return span;
 }
 
-void read_periodic(TomlTable& file, Scene& scene) {
+void read_periodic(TomlTable& file, SceneDescription& description) {
   std::optional<TomlTable> table = file.optional_table("periodic");
   if (!table) return;
+  description.places["periodic box: "] = table->place();
   constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
   dem_gpu::PeriodicBox box;
   for (std::size_t axis = 0; axis < axes.size(); ++axis)
     if (table->has(axes[axis])) box.span[axis] = read_span(*table, axes[axis]);
   table->finish();
   if (box == dem_gpu::PeriodicBox{}) table->refuse("state along which axes, such as x = [\"0 mm\", \"120 mm\"]");
-  scene.periodic = box;
+  description.scene.periodic = box;
 }
 
 }  // namespace
@@ -202,18 +207,18 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
     table.refuse("name", "name must not be empty, \".\" or \"..\" or hold '/': the run's folder is named for it");
   if (table.has("gravity")) scene.gravity = to_vec3(table.vector("gravity", Dimension::acceleration));
   const TomlTable run = table.table("run");
-  description.run_place = run.place();
+  description.places["run: "] = run.place();
   read_run(run, scene.run);
-  read_materials(table, scene);
+  read_materials(table, description);
   read_contacts(table, scene);
   read_contact_law(table.table("contact_law"), description);
   if (std::optional<TomlTable> ledger = table.optional_table("ledger")) {
     scene.energy_ledger = ledger->flag("enabled", true);
     ledger->finish();
   }
-  read_walls(table, read_motions(table), base_folder, scene);
-  read_outflow(table, scene);
-  read_periodic(table, scene);
+  read_walls(table, read_motions(table), base_folder, description);
+  read_outflow(table, description);
+  read_periodic(table, description);
   description.fills = read_fills(table, scene, base_folder);
   description.chains = read_chains(table, scene, base_folder);
   if (description.fills.empty() && description.chains.empty())

@@ -24,7 +24,7 @@ NamedMotions read_motions(TomlTable& file);
 
 /// [[wall]] and [[lifters]], in this order. Refuses equal names. Mesh files are sought from `base_folder`.
 void read_walls(TomlTable& file, const NamedMotions& motions, const std::filesystem::path& base_folder,
-                dem_gpu::Scene& scene);
+                SceneDescription& description);
 
 /// [[fill]].
 std::vector<FillDescription> read_fills(TomlTable& file, const dem_gpu::Scene& scene,

@@ -12,6 +12,7 @@
 #include "workflows/run_loop.h"
 #include "workflows/run_promises.h"
 #include "workflows/run_reports.h"
+#include "workflows/scene_place.h"
 #include "workflows/stage_tool.h"
 #include "workflows/thread_count.h"
 #include "workflows/units.h"
@@ -130,17 +131,6 @@ void start_log(const RunFolder& folder, const dem_gpu::Simulation& simulation, c
   folder.log("passes: " + passes);
 }
 
-/// The engine's own check, its message made to say which file.
-void check_scene(const AssembledScene& assembled, const SceneDescription& description) {
-  try {
-    dem_gpu::check(assembled.scene);
-  } catch (const catalog::InputError& error) {
-    const std::string what = error.what();
-    throw catalog::InputError((what.starts_with("run:") ? description.run_place : description.file.string()) + ": " +
-                              what);
-  }
-}
-
 double earlier_wall_seconds(const RunFolder& folder) {
   const nlohmann::ordered_json summary = folder.read_json("run.json");
   return summary.contains("wall_seconds") && summary["wall_seconds"].is_number() ? summary["wall_seconds"].get<double>()
@@ -186,7 +176,7 @@ int simulate(const SimulateOptions& options) {
 
   // Run it.
   catch_stop_signals();
-  dem_gpu::Simulation simulation(assembled.scene);
+  dem_gpu::Simulation simulation = start_simulation(assembled, description);
   RunPlan plan{description, assembled, folder, options.command};
   bool from_checkpoint = false;
   if (options.is_resumed) {
