@@ -10,6 +10,7 @@
 
 #include "catalog/input_error.h"
 #include "catalog/shape_catalog.h"
+#include "workflows/plain_name.h"
 #include "workflows/scene_place.h"
 
 namespace workflows {
@@ -148,6 +149,9 @@ std::vector<ShapeCollector::Collected> ShapeCollector::selected(const FillDescri
   std::vector<Collected> all;
   for (const catalog::ShapeId id : ids) {
     const catalog::ShapeSummary summary = catalogue.summary(id);
+    if (!is_plain_name(summary.name))
+      throw catalog::InputError(fill.place + ": a shape of " + path + " is named " + shown_name(summary.name) + "; " +
+                                kPlainName);
     const int vertex_cap = vertex_cap_of(summary, fill, shapes);
     const std::string key =
         path + "\n" + summary.name + "\n" + std::to_string(shapes.parts) + "\n" + std::to_string(vertex_cap);

@@ -21,13 +21,15 @@ using dem_gpu::Wall;
 // corners of particles to find.
 constexpr double kLifterReach = 0.05;
 constexpr int kMostLifters = 1000;
+constexpr Bounds kTurning{-1e9, 1e9, false, "from -1e9 to 1e9 rad/s"};
+constexpr Bounds kFrequency{0, 1e12, true, "more than 0, at most 1e12 rad/s"};
 
 /// oscillate = [0, 0, "1 mm"] and swing = "2 deg" about `axis`, with frequency and phase.
 void read_oscillation(TomlTable& table, dem_gpu::Motion& motion) {
   if (table.has("oscillate")) motion.amplitude = to_vec3(table.vector("oscillate", Dimension::length));
   if (table.has("swing"))
     motion.angular_amplitude = table.quantity("swing", Dimension::angle) * to_vec3(table.direction("axis"));
-  motion.frequency = table.quantity("frequency", Dimension::angular_velocity, kPositive) / (2 * std::numbers::pi);
+  motion.frequency = table.quantity("frequency", Dimension::angular_velocity, kFrequency) / (2 * std::numbers::pi);
   motion.phase = table.quantity("phase", Dimension::angle, kAny, 0);
 }
 
@@ -37,12 +39,12 @@ dem_gpu::Motion read_motion(TomlTable& table) {
   if (!table.has("rotate") && !table.has("translate") && !oscillates)
     table.refuse("state rotate or swing, with axis and centre, translate, or oscillate");
   if (table.has("rotate")) {
-    const double speed = table.quantity("rotate", Dimension::angular_velocity);
+    const double speed = table.quantity("rotate", Dimension::angular_velocity, kTurning);
     motion.angular_velocity = speed * to_vec3(table.direction("axis"));
   }
   if (table.has("rotate") || table.has("swing"))
     motion.rotation_centre = to_vec3(table.vector("centre", Dimension::length));
-  if (table.has("translate")) motion.velocity = to_vec3(table.vector("translate", Dimension::speed));
+  if (table.has("translate")) motion.velocity = to_vec3(table.vector("translate", Dimension::speed, kSpeed));
   if (oscillates) read_oscillation(table, motion);
   motion.start_time = table.quantity("start", Dimension::time, kNotNegative, 0);
   motion.ramp_time = table.quantity("ramp", Dimension::time, kNotNegative, 0);
@@ -186,11 +188,11 @@ void refuse_equal_name(const TomlTable& table, const std::string& name, const st
 Wall read_wall(TomlTable& table, const NamedMotions& motions, const std::vector<dem_gpu::Material>& materials,
                const std::filesystem::path& base_folder) {
   Wall wall;
-  wall.name = table.text("name");
+  wall.name = table.plain_name("name");
   table.rename("wall \"" + wall.name + "\"");
   wall.geometry = read_geometry(table, base_folder);
   wall.material = read_material_name(table, "material", materials);
-  wall.contact_class = table.text("class", "");
+  wall.contact_class = table.plain_name("class", "");
   read_motion_of(table, motions, wall);
   wall.removed_at = table.optional_quantity("open_at", Dimension::time, kNotNegative);
   table.finish();
@@ -221,7 +223,7 @@ catalog::ConvexPart lifter_part(const TomlTable& table, const dem_gpu::Cylinder&
 }
 
 void read_lifters(TomlTable& table, dem_gpu::Scene& scene) {
-  const std::string prefix = table.text("name", "lifter");
+  const std::string prefix = table.plain_name("name", "lifter");
   table.rename("lifters \"" + prefix + "\"");
   std::vector<std::string> names;
   for (const Wall& wall : scene.walls)
@@ -257,7 +259,7 @@ void read_lifters(TomlTable& table, dem_gpu::Scene& scene) {
     lifter.geometry = dem_gpu::VolumeObject{lifter_part(table, shell, section, angle, ends)};
     lifter.material =
         table.has("material") ? read_material_name(table, "material", scene.materials) : shell_wall.material;
-    lifter.contact_class = table.text("class", "lifter");
+    lifter.contact_class = table.plain_name("class", "lifter");
     lifter.motion = shell_wall.motion;
     lifter.group = shell_wall.group;
     scene.walls.push_back(lifter);

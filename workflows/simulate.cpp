@@ -5,9 +5,11 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "catalog/input_error.h"
 #include "workflows/atomic_file.h"
+#include "workflows/idle_settings.h"
 #include "workflows/resolved_scene.h"
 #include "workflows/run_loop.h"
 #include "workflows/run_promises.h"
@@ -170,6 +172,8 @@ int simulate(const SimulateOptions& options) {
   const fs::path scene_folder = fs::absolute(description.file).lexically_normal().parent_path();
   const nlohmann::ordered_json resolved = resolved_scene(assembled, description, scene_folder.string());
   if (options.dry_run) {
+    for (const std::string& warning : idle_settings(description, assembled.scene))
+      std::fprintf(stderr, "simulate: warning: %s\n", warning.c_str());
     print_dry_run(assembled, description, resolved, options.json);
     return kDone;
   }
@@ -191,9 +195,11 @@ int simulate(const SimulateOptions& options) {
     folder.start(description, resolved, simulation.geometry());
   }
   start_log(folder, simulation, options);
-  if (const auto warning = start_warning(assembled.scene)) {
-    std::fprintf(stderr, "simulate: warning: %s\n", warning->c_str());
-    folder.log("warning: " + *warning);
+  std::vector<std::string> warnings = idle_settings(description, assembled.scene);
+  if (const auto warning = start_warning(assembled.scene)) warnings.push_back(*warning);
+  for (const std::string& warning : warnings) {
+    std::fprintf(stderr, "simulate: warning: %s\n", warning.c_str());
+    folder.log("warning: " + warning);
   }
   std::fprintf(stderr, "%s%s", scene_table(assembled).c_str(), size_table(assembled, description).c_str());
   const ExitStatus status = run_to_end(simulation, plan, from_checkpoint);

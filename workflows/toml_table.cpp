@@ -7,6 +7,8 @@
 
 #include "catalog/input_error.h"
 #include "catalog/nearest_word.h"
+#include "workflows/plain_name.h"
+#include "workflows/text_format.h"
 
 namespace workflows {
 namespace {
@@ -82,7 +84,7 @@ double TomlTable::element(const toml::node& node, const std::string& place, Dime
     shown = "\"" + *text + "\"";
   } else if (node.is_number()) {
     value = node.value<double>();
-    shown = std::to_string(*value);
+    shown = formatted("%.6g", *value);
   } else {
     shown = kind_of(node);
   }
@@ -105,18 +107,18 @@ std::optional<double> TomlTable::optional_quantity(std::string_view key, Dimensi
   return element(*node, std::string(key), dimension, bounds);
 }
 
-std::array<double, 3> TomlTable::element_vector(const toml::node& node, const std::string& place,
-                                                Dimension dimension) const {
+std::array<double, 3> TomlTable::element_vector(const toml::node& node, const std::string& place, Dimension dimension,
+                                                const Bounds& bounds) const {
   const toml::array* array = node.as_array();
   if (!array || array->size() != 3) refuse_at(node.source(), place + " must be an array of three: [x, y, z]");
   std::array<double, 3> vector{};
   for (std::size_t i = 0; i < 3; ++i)
-    vector[i] = element((*array)[i], place + "[" + std::to_string(i) + "]", dimension, kAny);
+    vector[i] = element((*array)[i], place + "[" + std::to_string(i) + "]", dimension, bounds);
   return vector;
 }
 
-std::array<double, 3> TomlTable::vector(std::string_view key, Dimension dimension) {
-  return element_vector(require(key), std::string(key), dimension);
+std::array<double, 3> TomlTable::vector(std::string_view key, Dimension dimension, const Bounds& bounds) {
+  return element_vector(require(key), std::string(key), dimension, bounds);
 }
 
 std::array<double, 3> TomlTable::direction(std::string_view key) {
@@ -135,6 +137,16 @@ std::string TomlTable::text(std::string_view key) {
 
 std::string TomlTable::text(std::string_view key, std::string default_value) {
   return has(key) ? text(key) : std::move(default_value);
+}
+
+std::string TomlTable::plain_name(std::string_view key) {
+  std::string name = text(key);
+  if (!is_plain_name(name)) refuse(key, std::string(key) + " is " + shown_name(name) + "; " + kPlainName);
+  return name;
+}
+
+std::string TomlTable::plain_name(std::string_view key, std::string default_value) {
+  return has(key) ? plain_name(key) : std::move(default_value);
 }
 
 bool TomlTable::flag(std::string_view key, bool default_value) {
@@ -197,6 +209,9 @@ std::vector<TomlTable> TomlTable::named_tables(std::string_view key) {
   const TomlTable parent = table(key);
   for (const auto& [name, node] : *parent.table_) {
     const std::string title = std::string(key) + " \"" + std::string(name.str()) + "\"";
+    if (!is_plain_name(std::string(name.str())))
+      refuse_at(name.source(),
+                std::string(key) + " is named " + shown_name(std::string(name.str())) + "; " + kPlainName);
     if (!node.is_table())
       refuse_at(name.source(), title + " is " + kind_of(node) + "; expected a table headed [" + std::string(key) + "." +
                                    std::string(name.str()) + "]");
