@@ -45,7 +45,14 @@ class RunLoop {
         progress_(simulation.step()),
         last_row_step_(simulation.step()) {
     plan.folder.remove_snapshots_after(schedule_.snapshot_number(simulation.step()));
-    if (is_resumed) ledger_ = simulation.ledger();
+    if (!is_resumed) return;
+    ledger_ = simulation.ledger();
+    const double due =
+        double(schedule_.series.step_of(schedule_.series.last_index(simulation.step()))) * simulation.time_step();
+    for (const std::string& gap : series_.gaps(due)) {
+      std::fprintf(stderr, "simulate: warning: %s\n", gap.c_str());
+      plan.folder.log("warning: " + gap);
+    }
   }
 
   ExitStatus run(bool is_resumed) {

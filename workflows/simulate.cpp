@@ -183,6 +183,7 @@ int simulate(const SimulateOptions& options) {
   dem_gpu::Simulation simulation = start_simulation(assembled, description);
   RunPlan plan{description, assembled, folder, options.command};
   bool from_checkpoint = false;
+  std::vector<std::string> warnings;
   if (options.is_resumed) {
     plan.earlier_wall_seconds = earlier_wall_seconds(folder);
     from_checkpoint = folder.has_checkpoint();
@@ -191,11 +192,13 @@ int simulate(const SimulateOptions& options) {
     else
       std::fprintf(stderr, "simulate: %s has no checkpoint yet; it starts again from time 0\n", folder.path().c_str());
     keep_end_time(folder, assembled.scene.run.end_time);
+    warnings =
+        folder.mend(simulation.geometry(), from_checkpoint ? schedule.snapshots.last_index(simulation.step()) : -1);
   } else {
     folder.start(description, resolved, simulation.geometry());
   }
   start_log(folder, simulation, options);
-  std::vector<std::string> warnings = idle_settings(description, assembled.scene);
+  for (const std::string& idle : idle_settings(description, assembled.scene)) warnings.push_back(idle);
   if (const auto warning = start_warning(assembled.scene)) warnings.push_back(*warning);
   for (const std::string& warning : warnings) {
     std::fprintf(stderr, "simulate: warning: %s\n", warning.c_str());
