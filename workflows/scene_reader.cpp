@@ -114,8 +114,7 @@ void read_contacts(TomlTable& file, Scene& scene) {
           table.refuse("this pair of materials is stated already, in the other order; keep one");
         scene.contact[a][b] = scene.contact[b][a] = read_contact(table, defaults);
       }
-    if (!is_known)
-      table.refuse("not a pair of materials; nearest known: \"" + *catalog::nearest_word(table.name(), pairs) + "\"");
+    if (!is_known) table.refuse("not a pair of materials; " + catalog::word_hint(table.name(), pairs));
   }
 }
 

@@ -13,9 +13,6 @@
 namespace workflows {
 namespace {
 
-// A key that is missing while one this close stands in the table: a slip of the pen, reported as such.
-constexpr std::size_t kSlipDistance = 2;
-
 std::string kind_of(const toml::node& node) {
   switch (node.type()) {
     case toml::node_type::table:
@@ -62,9 +59,10 @@ const toml::node* TomlTable::find(std::string_view key) {
 
 const toml::node& TomlTable::require(std::string_view key) {
   if (const toml::node* node = find(key)) return *node;
+  // Missing while one close to it stands in the table: a slip of the pen, reported as such.
   for (const auto& [present, node] : *table_)
-    if (!known_.contains(present.str()) && catalog::edit_distance(present.str(), key) <= kSlipDistance)
-      refuse_unknown(present, std::string(key));
+    if (!known_.contains(present.str()) && catalog::nearest_word(present.str(), {std::string(key)}))
+      refuse_unknown(present, {std::string(key)});
   refuse("key '" + std::string(key) + "' is missing");
 }
 
@@ -169,9 +167,12 @@ std::int64_t TomlTable::integer(std::string_view key, std::int64_t least, std::i
 int TomlTable::choice(std::string_view key, const std::vector<std::string>& choices) {
   const std::string word = text(key);
   const auto found = std::find(choices.begin(), choices.end(), word);
-  if (found == choices.end())
-    refuse(key, std::string(key) + " is \"" + word + "\"; nearest known: \"" + *catalog::nearest_word(word, choices) +
-                    "\" (of " + listed(choices) + ")");
+  if (found == choices.end()) {
+    const auto nearest = catalog::nearest_word(word, choices);
+    refuse(key, std::string(key) + " is \"" + word + "\"; " +
+                    (nearest ? "nearest known: \"" + *nearest + "\" (of " + listed(choices) + ")"
+                             : "expected one of " + listed(choices)));
+  }
   return static_cast<int>(found - choices.begin());
 }
 
@@ -238,11 +239,14 @@ void TomlTable::expect_only(const std::vector<std::string>& keys) {
 void TomlTable::finish() const {
   const std::vector<std::string> known(known_.begin(), known_.end());
   for (const auto& [key, node] : *table_)
-    if (!known_.contains(key.str())) refuse_unknown(key, catalog::nearest_word(key.str(), known).value_or("none"));
+    if (!known_.contains(key.str())) refuse_unknown(key, known);
 }
 
-void TomlTable::refuse_unknown(const toml::key& key, const std::string& nearest) const {
-  refuse_at(key.source(), "unknown key '" + std::string(key.str()) + "'; nearest known key: '" + nearest + "'");
+void TomlTable::refuse_unknown(const toml::key& key, const std::vector<std::string>& known) const {
+  const auto nearest = catalog::nearest_word(key.str(), known);
+  refuse_at(key.source(),
+            "unknown key '" + std::string(key.str()) + "'; " +
+                (nearest ? "nearest known key: '" + *nearest + "'" : "known keys: " + catalog::quoted_list(known)));
 }
 
 void TomlTable::refuse(std::string_view key, const std::string& message) const {

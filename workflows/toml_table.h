@@ -86,7 +86,7 @@ class TomlTable {
   const toml::node* find(std::string_view key);
   const toml::node& require(std::string_view key);
   [[noreturn]] void refuse_at(const toml::source_region& source, const std::string& message) const;
-  [[noreturn]] void refuse_unknown(const toml::key& key, const std::string& nearest) const;
+  [[noreturn]] void refuse_unknown(const toml::key& key, const std::vector<std::string>& known) const;
   std::string called(std::string_view key) const;
 
   const toml::table* table_;

@@ -45,12 +45,14 @@ const BadScene kBadScenes[] = {
     {"seed = 3", "seeds = 3", "seeds", "unknown key 'seeds'; nearest known key: 'seed'"},
     {"\"sieve\", size", "\"sieve\", sizes", "sizes =", "unknown key 'sizes'; nearest known key: 'size'"},
     {"gravity =", "gravty =", "gravty", "nearest known key: 'gravity'"},
+    {"seed = 3", "colour = 3", "colour", "unknown key 'colour'; known keys: 'box', "},
     // unknown words
+    {"type = \"cylinder\"", "type = \"pipe\"", "\"pipe\"", "expected one of \"plane\", \"disc\""},
     {"type = \"cylinder\"", "type = \"cylindre\"", "\"cylindre\"", "nearest known: \"cylinder\""},
     {"material = \"rock\"", "material = \"rok\"", "\"rok\"", "nearest known: \"rock\""},
     {"motion = \"drum\"", "motion = \"dram\"", "\"dram\"", "nearest known: \"drum\""},
     {"on = \"shell\"", "on = \"shel\"", "\"shel\"", "nearest known: \"shell\""},
-    {"[contact.\"rock-steel\"]", "[contact.\"rock-stel\"]", "[contact.\"rock-stel\"]", "nearest known: \"rock-steel\""},
+    {"[contact.\"rock-steel\"]", "[contact.\"rock-stel\"]", "[contact.\"rock-stel\"]", "did you mean 'rock-steel'?"},
     {"basis = \"mass\"", "basis = \"volume\"", "\"volume\"", "of \"mass\", \"number\""},
     // missing keys
     {"end_time = \"40 ms\"\n", "", "[run]", "key 'end_time' is missing"},
