@@ -156,7 +156,9 @@ RunSchedule run_schedule(const SceneDescription& description, const dem_gpu::Sce
   const double time_step = dem_gpu::time_step(scene);
   const dem_gpu::RunControl& run = scene.run;
   const auto refuse = [&](const std::string& what) {
-    throw catalog::InputError(description.file.string() + ": run." + what);
+    const auto place = description.places.find("run: ");
+    throw catalog::InputError((place == description.places.end() ? description.file.string() : place->second) +
+                              ": run." + what);
   };
   const double steps = run.end_time / time_step;
   if (!(steps >= 1 && steps <= kMostSteps))

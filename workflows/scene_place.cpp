@@ -30,6 +30,7 @@ catalog::InputError placed(const catalog::InputError& error, const AssembledScen
   const std::string message = error.what(), file = description.file.string();
   if (message.starts_with(file)) return error;
   std::string place = place_of_body(message, description, assembled);
+  // The longest beginning is the last one.
   for (const auto& [beginning, its_place] : description.places)
     if (message.starts_with(beginning)) place = its_place;
   return catalog::InputError((place.empty() ? file : place) + ": " + message);

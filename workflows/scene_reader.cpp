@@ -87,7 +87,8 @@ dem_gpu::ContactProperties read_contact(TomlTable& table, const dem_gpu::Contact
 }
 
 /// Every material pair takes [contact.default] unless [contact."a-b"] says otherwise.
-void read_contacts(TomlTable& file, Scene& scene) {
+void read_contacts(TomlTable& file, SceneDescription& description) {
+  Scene& scene = description.scene;
   const std::size_t count = scene.materials.size();
   std::vector<TomlTable> tables = file.named_tables("contact");
   const dem_gpu::ContactProperties* defaults = nullptr;
@@ -95,6 +96,7 @@ void read_contacts(TomlTable& file, Scene& scene) {
   for (TomlTable& table : tables)
     if (table.name() == "default") {
       default_contact = read_contact(table, nullptr);
+      description.places["contact of "] = table.place();
       defaults = &default_contact;
     }
   if (!defaults) file.refuse("section [contact.default] with restitution and friction is missing");
@@ -113,6 +115,10 @@ void read_contacts(TomlTable& file, Scene& scene) {
         if (!seen.insert(std::minmax(a, b)).second)
           table.refuse("this pair of materials is stated already, in the other order; keep one");
         scene.contact[a][b] = scene.contact[b][a] = read_contact(table, defaults);
+        for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)})
+          description
+              .places["contact of '" + scene.materials[one].name + "' with '" + scene.materials[other].name + "'"] =
+              table.place();
       }
     if (!is_known) table.refuse("not a pair of materials; " + catalog::word_hint(table.name(), pairs));
   }
@@ -225,7 +231,7 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
   description.places["run: "] = run.place();
   read_run(run, scene.run);
   read_materials(table, description);
-  read_contacts(table, scene);
+  read_contacts(table, description);
   read_contact_law(table.table("contact_law"), description);
   if (std::optional<TomlTable> ledger = table.optional_table("ledger")) {
     scene.energy_ledger = ledger->flag("enabled", true);

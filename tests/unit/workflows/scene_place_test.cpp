@@ -71,6 +71,9 @@ const LateRefusal kLateRefusals[] = {
      "[[chain]]\nname = \"hoist\"\nring = {diameter = \"40 mm\", wire = \"6 mm\"}\nmaterial = \"steel\"\nlinks = 2\n"
      "start = [0, 0, -0.11]\n[[lifters]]",
      "[[chain]]", "chain \"hoist\": body 18 and wall 'shell' overlap at the start"},
+    {"restitution = 0.4", "restitution = 0", "[contact.default]", "contact of 'rock' with 'rock': restitution of poly"},
+    {"friction = 0.3", "friction = 0.3\nrestitution = 0", "[contact.\"rock-steel\"]",
+     "contact of 'rock' with 'steel': restitution of poly"},
     {"\"40 ms\"", "\"40 ms\"\nsteps_per_contact = 3", "[run]", "run: steps per contact must be at least 5"},
     {kAtEnd, "[periodic]\ny = [-0.055, 0.055]\n[[lifters]]", "[[wall]]", "wall 'shell': it spans"},
 };
