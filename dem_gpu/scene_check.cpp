@@ -20,6 +20,10 @@ constexpr Real kFewestSteps = 5;
 /// Below it the dashpot of polyhedra, evaluated once a step, is too stiff for the step.
 constexpr Real kLeastPolyhedralRestitution = 0.01;
 
+/// A couple of the normal force on a longer lever than the radius is none of rolling; the spring that holds it goes
+/// with the square and leaves the step behind.
+constexpr Real kMostRollingFriction = 1;
+
 bool is_positive(Real value) { return value > 0 && std::isfinite(value); }
 bool is_finite(const Vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 bool is_unit(const Vec3& v) { return std::abs(norm(v) - 1) < 1e-6; }
@@ -107,6 +111,7 @@ void check_contacts(const Scene& scene) {
              "restitution of polyhedra must be at least 0.01");
       check_not_negative(properties.friction_coefficient, place, "friction");
       check_not_negative(properties.rolling_friction, place, "rolling friction");
+      demand(properties.rolling_friction <= kMostRollingFriction, place, "rolling friction must be at most 1");
       check_not_negative(properties.adhesion, place, "adhesion");
       demand(properties.rolling_friction == 0 || scene.friction, place,
              "rolling friction needs friction, which this scene has turned off");

@@ -23,7 +23,6 @@ constexpr Bounds kStiffness{1e-9, 1e24, false, "more than 0 (1e-9 to 1e24 in SI)
 constexpr Bounds kModulus{1e-6, 1e18, false, "more than 0 (1e-6 to 1e18 Pa)"};
 constexpr Bounds kDensity{1e-6, 1e18, false, "more than 0 (1e-6 to 1e18 kg/m3)"};
 constexpr Bounds kFriction{0, 1e6, false, "0 or more, at most 1e6"};
-// A couple of the normal force with a lever longer than the radius is none of rolling, and its spring too stiff.
 constexpr Bounds kRollingFriction{0, 1, false, "0 or more, at most 1"};
 constexpr Bounds kAdhesion{0, 1000, false, "0 or more, at most 1000 J/m2"};
 constexpr Bounds kHardening{1e-6, 1e6, false, "more than 0 (1e-6 to 1e6)"};
