@@ -16,7 +16,7 @@ namespace dem_gpu {
 namespace {
 
 constexpr const char* kKind = "talus-checkpoint";
-constexpr int kVersion = 5;
+constexpr int kVersion = 6;
 constexpr std::int64_t kLocalRealBytes = sizeof(LocalReal);
 
 /// A whole checkpoint that does not fit the simulation: no reason to look at an earlier one.
@@ -57,6 +57,7 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("contacts/turning_displacement", c.turning_displacement);
   visit("contacts/spring_normal", c.spring_normal);
   visit("contacts/elastic_work", c.elastic_work);
+  visit("contacts/orbit_loss", c.orbit_loss);
   visit("contacts/tangential_energy", c.tangential_energy);
   visit("contacts/loss_normal", c.loss_normal);
   visit("contacts/loss_shear", c.loss_shear);
