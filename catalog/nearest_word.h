@@ -28,13 +28,28 @@ inline std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-/// The known word that needs the fewest edits, the first of equals; nullopt where no word is known.
+/// The known word that needs the fewest edits, the first of equals; nullopt where none is near: a slip of the pen
+/// changes a third of the letters at most.
 inline std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& known) {
   const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
     return edit_distance(word, a) < edit_distance(word, b);
   });
-  if (nearest == known.end()) return std::nullopt;
+  if (nearest == known.end() || 3 * edit_distance(word, *nearest) > std::max(word.size(), nearest->size()) + 2)
+    return std::nullopt;
   return *nearest;
+}
+
+/// 'a', 'b', 'c'.
+inline std::string quoted_list(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "'" : ", '") + word + "'";
+  return list;
+}
+
+/// For the end of a message about an unknown word: "did you mean 'x'?", or, where none is near, "known are 'a', 'b'.".
+inline std::string word_hint(std::string_view word, const std::vector<std::string>& known) {
+  if (const auto nearest = nearest_word(word, known)) return "did you mean '" + *nearest + "'?";
+  return "known are " + quoted_list(known) + ".";
 }
 
 }  // namespace catalog

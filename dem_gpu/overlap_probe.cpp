@@ -32,7 +32,7 @@ void integrate(const ShapeView& shapes, const Pose& a, const Pose& b, Separating
                Integrals& integrals) {
   if (!integrate_bodies(shapes, kShapeA, kShapeB, a, b, separating, integrals))
     throw std::runtime_error("overlap probe: a clipped face has more than " + std::to_string(kMaxPolygonCorners) +
-                             " corners");
+                             " corners, or more depths than fit");
 }
 
 template <class Law>

@@ -61,7 +61,7 @@ struct ContactProperties {
   Real restitution = 0.5;           // normal, [0, 1]; at least 0.01 where there are polyhedra
   Real friction_coefficient = 0.5;  // Coulomb, >= 0
   // Of sphere contacts alone.
-  Real rolling_friction = 0;  // largest rolling couple / (R* F_n), >= 0 [-]
+  Real rolling_friction = 0;  // largest rolling couple / (R* F_n), [0, 1] [-]
   Real adhesion = 0;          // work of adhesion, >= 0 [J/m2]
 };
 

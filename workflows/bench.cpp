@@ -80,8 +80,8 @@ std::vector<BenchCase> chosen_cases(const BenchPlan& plan, const Options& option
     if (bench_case.name == options.only_case) return {bench_case};
     known.push_back(bench_case.name);
   }
-  throw catalog::UsageError("bench '" + options.bench + "' has no case '" + options.only_case + "'; did you mean '" +
-                            *catalog::nearest_word(options.only_case, known) + "'?");
+  throw catalog::UsageError("bench '" + options.bench + "' has no case '" + options.only_case + "'; " +
+                            catalog::word_hint(options.only_case, known));
 }
 
 std::string command_of(const Options& options, const BenchCase& bench_case) {

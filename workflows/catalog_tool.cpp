@@ -91,8 +91,9 @@ ShapeId id_of(const ShapeCatalog& catalog, const CatalogOptions& options) {
       throw InputError(options.catalog + ": " + options.name + " was rejected: " + rejected.reason);
   const auto nearest = catalog::nearest_word(options.name, names);
   throw InputError(options.catalog + ": has no shape '" + options.name + "'; " +
-                   (nearest ? "did you mean '" + *nearest + "'? See talus catalog list " : "it is empty: ") +
-                   (nearest ? options.catalog : "fill it with talus digitize ... --into"));
+                   (names.empty() ? "it is empty: fill it with talus digitize ... --into"
+                                  : (nearest ? "did you mean '" + *nearest + "'? " : std::string()) +
+                                        "See talus catalog list " + options.catalog));
 }
 
 std::vector<ShapeSummary> selected(const ShapeCatalog& catalog, const std::string& expression) {
@@ -109,8 +110,7 @@ double weight_of(const ShapeSummary& shape, const std::string& word) {
   if (found != shape.descriptors.end()) return found->second;
   std::vector<std::string> known{"volume", "face_count"};
   for (const auto& [name, value] : shape.descriptors) known.push_back(name);
-  throw InputError("--weight " + word + ": " + shape.name + " has no such figure; did you mean '" +
-                   *catalog::nearest_word(word, known) + "'?");
+  throw InputError("--weight " + word + ": " + shape.name + " has no such figure; " + catalog::word_hint(word, known));
 }
 
 std::vector<ShapeSummary> sampled(const ShapeCatalog& catalog, const CatalogOptions& options) {

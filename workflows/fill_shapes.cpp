@@ -10,6 +10,8 @@
 
 #include "catalog/input_error.h"
 #include "catalog/shape_catalog.h"
+#include "workflows/plain_name.h"
+#include "workflows/scene_place.h"
 
 namespace workflows {
 namespace {
@@ -59,6 +61,14 @@ double bounding_radius(const dem_gpu::Shape& shape) {
   for (const catalog::ConvexPart& part : std::get<dem_gpu::PolyhedralShape>(shape.geometry).parts)
     for (const Point& p : part.vertices) squared = std::max(squared, p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
   return std::sqrt(squared);
+}
+
+dem_gpu::Shape decomposed(const std::string& name, const std::vector<catalog::ConvexPart>& parts) {
+  try {
+    return dem_gpu::polyhedral_shape(name, parts);
+  } catch (const catalog::InputError& error) {
+    throw catalog::InputError(std::string(error.what()) + "; decompose the shape again with other limits");
+  }
 }
 
 std::string with_millimetres(const char* name, const std::vector<double>& lengths) {
@@ -139,15 +149,18 @@ std::vector<ShapeCollector::Collected> ShapeCollector::selected(const FillDescri
   std::vector<Collected> all;
   for (const catalog::ShapeId id : ids) {
     const catalog::ShapeSummary summary = catalogue.summary(id);
+    if (!is_plain_name(summary.name))
+      throw catalog::InputError(fill.place + ": a shape of " + path + " is named " + shown_name(summary.name) + "; " +
+                                kPlainName);
     const int vertex_cap = vertex_cap_of(summary, fill, shapes);
     const std::string key =
         path + "\n" + summary.name + "\n" + std::to_string(shapes.parts) + "\n" + std::to_string(vertex_cap);
     if (!collected_.contains(key)) {
       const catalog::LevelOfDetail level = catalogue.level(id, shapes.parts, vertex_cap);
-      Collected collected = add(dem_gpu::polyhedral_shape(summary.name, level.parts),
-                                {.name = summary.name,
-                                 .symmetric_difference = level.error.symmetric_difference,
-                                 .volume_error = level.error.volume_error});
+      Collected collected =
+          add(decomposed(summary.name, level.parts), {.name = summary.name,
+                                                      .symmetric_difference = level.error.symmetric_difference,
+                                                      .volume_error = level.error.volume_error});
       collected.sieve_size = descriptor(summary, "axis_intermediate_obb");
       collected.largest_feret = descriptor(summary, "feret_max");
       collected_[key] = collected;
@@ -158,15 +171,12 @@ std::vector<ShapeCollector::Collected> ShapeCollector::selected(const FillDescri
 }
 
 std::vector<FillShape> ShapeCollector::shapes_of(const FillDescription& fill) {
-  std::vector<Collected> all;
-  if (const auto* sphere = std::get_if<BallShape>(&fill.shapes))
-    all = {ball(fill, *sphere)};
-  else if (const auto* block = std::get_if<BoxShape>(&fill.shapes))
-    all = {box(*block)};
-  else if (const auto* hoop = std::get_if<RingShape>(&fill.shapes))
-    all = {ring(*hoop)};
-  else
-    all = selected(fill, std::get<CatalogueShapes>(fill.shapes));
+  const std::vector<Collected> all = at_place(fill.place, [&]() -> std::vector<Collected> {
+    if (const auto* sphere = std::get_if<BallShape>(&fill.shapes)) return {ball(fill, *sphere)};
+    if (const auto* block = std::get_if<BoxShape>(&fill.shapes)) return {box(*block)};
+    if (const auto* hoop = std::get_if<RingShape>(&fill.shapes)) return {ring(*hoop)};
+    return selected(fill, std::get<CatalogueShapes>(fill.shapes));
+  });
 
   std::vector<FillShape> shapes;
   for (const Collected& one : all) {
@@ -175,6 +185,10 @@ std::vector<FillShape> ShapeCollector::shapes_of(const FillDescription& fill) {
     shapes.back().size = fill.definition == SizeDefinition::sieve               ? one.sieve_size
                          : fill.definition == SizeDefinition::volume_equivalent ? equivalent
                                                                                 : one.largest_feret;
+    if (!(one.shape.volume > 0))
+      throw catalog::InputError(fill.place + ": shape '" +
+                                assembled_.scene.shapes[static_cast<std::size_t>(one.shape.index)].name +
+                                "' has no volume; check the unit of its size");
     if (!(shapes.back().size > 0))
       throw catalog::InputError(
           fill.place + ": shape '" + assembled_.scene.shapes[static_cast<std::size_t>(one.shape.index)].name +

@@ -90,6 +90,24 @@ void RunFolder::start(const SceneDescription& description, const nlohmann::order
   write_whole(scene_file(), description.text);
 }
 
+std::vector<std::string> RunFolder::mend(const dem_gpu::RunGeometry& geometry, std::int64_t last_snapshot) const {
+  std::vector<std::string> notes;
+  const fs::path file = path_ / "geometry.h5";
+  try {
+    dem_gpu::read_geometry(file);
+  } catch (const catalog::InputError& error) {
+    notes.push_back(std::string(error.what()) + "; it was made again from the scene");
+    dem_gpu::write_geometry(file, geometry);
+  }
+  fs::create_directories(path_ / "snapshots");
+  std::int64_t missing = 0;
+  for (std::int64_t number = 0; number <= last_snapshot; ++number) missing += !fs::exists(snapshot_file(number));
+  if (missing > 0)
+    notes.push_back((path_ / "snapshots").string() + ": " + std::to_string(missing) + " of the " +
+                    std::to_string(last_snapshot + 1) + " snapshots so far are missing; the run goes on without them");
+  return notes;
+}
+
 void RunFolder::write_json(const char* name, const nlohmann::ordered_json& json) const {
   write_whole(path_ / name, json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
 }

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "dem_gpu/snapshot.h"
 #include "workflows/scene_assembly.h"
@@ -38,6 +39,9 @@ class RunFolder {
   /// Makes and locks the folder, with scene.toml, resolved_scene.json and geometry.h5.
   void start(const SceneDescription& description, const nlohmann::ordered_json& resolved,
              const dem_gpu::RunGeometry& geometry);
+  /// What a resumed run needs and is missing or damaged, made again where it can be: the folder of snapshots and
+  /// geometry.h5. Says what was found missing, snapshots up to `last_snapshot` among it, one line each.
+  std::vector<std::string> mend(const dem_gpu::RunGeometry& geometry, std::int64_t last_snapshot) const;
   void write_json(const char* name, const nlohmann::ordered_json& json) const;
   /// Removes the snapshots that a run left which is now gone on with from an earlier moment.
   void remove_snapshots_after(std::int64_t number) const;

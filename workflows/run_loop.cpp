@@ -45,7 +45,14 @@ class RunLoop {
         progress_(simulation.step()),
         last_row_step_(simulation.step()) {
     plan.folder.remove_snapshots_after(schedule_.snapshot_number(simulation.step()));
-    if (is_resumed) ledger_ = simulation.ledger();
+    if (!is_resumed) return;
+    ledger_ = simulation.ledger();
+    const double due =
+        double(schedule_.series.step_of(schedule_.series.last_index(simulation.step()))) * simulation.time_step();
+    for (const std::string& gap : series_.gaps(due)) {
+      std::fprintf(stderr, "simulate: warning: %s\n", gap.c_str());
+      plan.folder.log("warning: " + gap);
+    }
   }
 
   ExitStatus run(bool is_resumed) {
@@ -149,7 +156,9 @@ RunSchedule run_schedule(const SceneDescription& description, const dem_gpu::Sce
   const double time_step = dem_gpu::time_step(scene);
   const dem_gpu::RunControl& run = scene.run;
   const auto refuse = [&](const std::string& what) {
-    throw catalog::InputError(description.file.string() + ": run." + what);
+    const auto place = description.places.find("run: ");
+    throw catalog::InputError((place == description.places.end() ? description.file.string() : place->second) +
+                              ": run." + what);
   };
   const double steps = run.end_time / time_step;
   if (!(steps >= 1 && steps <= kMostSteps))

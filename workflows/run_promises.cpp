@@ -10,6 +10,22 @@ namespace workflows {
 
 using dem_gpu::Scene;
 
+namespace {
+
+constexpr const char* kFinerStep = "a finer preset (or a shorter time step)";
+
+/// What would keep the broken promises, each remedy once; empty if all are kept.
+std::string remedies(const std::vector<PromiseKept>& all) {
+  std::vector<std::string> named;
+  for (const PromiseKept& one : all)
+    if (!one.is_kept && std::find(named.begin(), named.end(), one.remedy) == named.end()) named.push_back(one.remedy);
+  std::string text;
+  for (const std::string& remedy : named) text += (text.empty() ? "" : " and ") + remedy;
+  return text;
+}
+
+}  // namespace
+
 double imbalance_share(const dem_gpu::EnergyLedger& ledger) {
   return ledger.throughput > 0 ? std::abs(ledger.imbalance()) / ledger.throughput : 0;
 }
@@ -21,12 +37,12 @@ std::vector<PromiseKept> promises(const AssembledScene& assembled, const dem_gpu
   std::vector<PromiseKept> all;
   if (assembled.scene.energy_ledger)
     all.push_back({"energy imbalance, share of the energy put in", imbalance_share(ledger), promise.energy_imbalance,
-                   imbalance_share(ledger) <= promise.energy_imbalance});
+                   imbalance_share(ledger) <= promise.energy_imbalance, kFinerStep});
   all.push_back({"largest overlap, share of the diameter", quality.largest_overlap, promise.largest_overlap,
-                 quality.largest_overlap <= promise.largest_overlap});
+                 quality.largest_overlap <= promise.largest_overlap, "stiffer contacts (a higher at_speed)"});
   if (quality.smallest_steps_per_contact > 0)
     all.push_back({"fewest steps in a contact", quality.smallest_steps_per_contact, promise.steps_per_contact,
-                   quality.smallest_steps_per_contact >= promise.steps_per_contact});
+                   quality.smallest_steps_per_contact >= promise.steps_per_contact, kFinerStep});
   return all;
 }
 
@@ -60,9 +76,8 @@ std::vector<std::string> run_warnings(const AssembledScene& assembled, const Sce
   const dem_gpu::RunQuality quality = simulation.quality();
   if (const auto warning = start_warning(assembled.scene)) warnings.push_back(*warning);
   const std::vector<PromiseKept> kept = promises(assembled, simulation, ledger);
-  if (std::any_of(kept.begin(), kept.end(), [](const PromiseKept& one) { return !one.is_kept; }))
-    warnings.push_back(promise_line(assembled, kept) +
-                       "; a finer preset or stiffer contacts (a higher at_speed) would mend it");
+  if (const std::string remedy = remedies(kept); !remedy.empty())
+    warnings.push_back(promise_line(assembled, kept) + "; the remedy: " + remedy);
   if (description.stiffness.largest_overlap && quality.largest_overlap > *description.stiffness.largest_overlap)
     warnings.push_back(
         formatted("the largest overlap was %.4g %% of a body's diameter; the %.4g %% asked for hold at "

@@ -15,6 +15,7 @@ struct PromiseKept {
   std::string figure;
   double value = 0, promised = 0;
   bool is_kept = false;
+  const char* remedy = "";  // where it is broken
 };
 std::vector<PromiseKept> promises(const AssembledScene& assembled, const dem_gpu::Simulation& simulation,
                                   const dem_gpu::EnergyLedger& ledger);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "workflows/run_reports.h"
 
+#include "workflows/idle_settings.h"
 #include "workflows/resolved_scene.h"
 #include "workflows/run_promises.h"
 #include "workflows/stage_tool.h"
@@ -87,7 +88,9 @@ nlohmann::ordered_json run_summary(const AssembledScene& assembled, const SceneD
   json["passes"] = simulation.pass_names();
   json["command"] = facts.command;
   json["tool_version"] = tool_version();
-  json["warnings"] = run_warnings(assembled, description, simulation, ledger);
+  json["warnings"] = idle_settings(description, assembled.scene);
+  for (const std::string& warning : run_warnings(assembled, description, simulation, ledger))
+    json["warnings"].push_back(warning);
   return json;
 }
 

@@ -28,7 +28,7 @@ std::vector<ChainDescription> read_chains(TomlTable& file, const dem_gpu::Scene&
   std::vector<ChainDescription> chains;
   for (TomlTable& table : file.tables("chain")) {
     ChainDescription chain;
-    chain.name = table.text("name", "chain_" + std::to_string(chains.size()));
+    chain.name = table.plain_name("name", "chain_" + std::to_string(chains.size()));
     table.rename("chain \"" + chain.name + "\"");
     chain.place = table.place() + ": " + table.title();
     if (table.has("ring") == table.has("shapes_from"))
@@ -39,7 +39,7 @@ std::vector<ChainDescription> read_chains(TomlTable& file, const dem_gpu::Scene&
       chain.link = read_catalogue_shapes(table, base_folder);
     chain.material = read_material_name(table, "material", scene.materials);
     chain.layout = read_layout(table);
-    if (table.has("velocity")) chain.velocity = table.vector("velocity", Dimension::speed);
+    if (table.has("velocity")) chain.velocity = table.vector("velocity", Dimension::speed, kSpeed);
     table.finish();
     chains.push_back(std::move(chain));
   }

@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::int64_t kMostBodies = 5'000'000;
 constexpr int kMostParts = 1024;
+// Of a ring: the depth field of as many takes 15 s to set up, of twice as many a minute.
+constexpr int kMostRingFaces = 5000;
 // Tables of passing must end at 100 % within this share.
 constexpr double kFullShareTolerance = 1e-6;
 // A region may end as far beyond a face of a periodic box, in widths of the box: units converted on the way.
@@ -147,8 +149,13 @@ RingShape read_ring(TomlTable table) {
   ring.diameter = table.quantity("diameter", Dimension::length, kPositive);
   const Bounds thin{0, ring.diameter / 2, true, "more than 0, less than half the ring's diameter"};
   ring.wire = table.quantity("wire", Dimension::length, thin);
+  if (!(ring.wire < ring.diameter / 2))
+    table.refuse("wire", "wire closes the ring's hole; it must be " + std::string(thin.words));
   if (table.has("segments")) ring.segments = static_cast<int>(table.integer("segments", 4, kMostParts));
   if (table.has("sides")) ring.sides = static_cast<int>(table.integer("sides", 3, dem_gpu::kMaxFaceCorners));
+  if (ring.segments * ring.sides > kMostRingFaces)
+    table.refuse("segments", "segments x sides is " + std::to_string(ring.segments * ring.sides) + "; at most " +
+                                 std::to_string(kMostRingFaces) + " faces, or the set-up takes minutes");
   table.finish();
   return ring;
 }
@@ -188,7 +195,7 @@ std::vector<FillDescription> read_fills(TomlTable& file, const dem_gpu::Scene& s
   std::vector<FillDescription> fills;
   for (TomlTable& table : file.tables("fill")) {
     FillDescription fill;
-    fill.name = table.text("name", "fill_" + std::to_string(fills.size()));
+    fill.name = table.plain_name("name", "fill_" + std::to_string(fills.size()));
     table.rename("fill \"" + fill.name + "\"");
     for (const FillDescription& other : fills)
       if (other.name == fill.name) table.refuse("name", "two fills are named \"" + fill.name + "\"; names must differ");
@@ -204,7 +211,7 @@ std::vector<FillDescription> read_fills(TomlTable& file, const dem_gpu::Scene& s
     fill.region = read_region(table.table("where"));
     if (scene.periodic) refuse_outside(table, fill.region, *scene.periodic);
     fill.layout = read_layout(table);
-    if (table.has("velocity")) fill.velocity = table.vector("velocity", Dimension::speed);
+    if (table.has("velocity")) fill.velocity = table.vector("velocity", Dimension::speed, kSpeed);
     table.finish();
     fills.push_back(std::move(fill));
   }

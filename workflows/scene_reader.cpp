@@ -16,6 +16,20 @@ namespace {
 
 using dem_gpu::Scene;
 
+// Bounds beyond which no material, machine or toy scaling lies, and squares and ratios would run over.
+constexpr Bounds kAcceleration{-1e6, 1e6, false, "from -1e6 to 1e6 m/s2"};
+constexpr Bounds kImpactSpeed{1e-9, 1e6, false, "more than 0 (1e-9 to 1e6 m/s)"};
+constexpr Bounds kStiffness{1e-9, 1e24, false, "more than 0 (1e-9 to 1e24 in SI)"};
+constexpr Bounds kModulus{1e-6, 1e18, false, "more than 0 (1e-6 to 1e18 Pa)"};
+constexpr Bounds kDensity{1e-6, 1e18, false, "more than 0 (1e-6 to 1e18 kg/m3)"};
+constexpr Bounds kFriction{0, 1e6, false, "0 or more, at most 1e6"};
+constexpr Bounds kRollingFriction{0, 1, false, "0 or more, at most 1"};
+constexpr Bounds kAdhesion{0, 1000, false, "0 or more, at most 1000 J/m2"};
+constexpr Bounds kHardening{1e-6, 1e6, false, "more than 0 (1e-6 to 1e6)"};
+constexpr Bounds kSpringRatio{1e-6, 1e6, false, "more than 0 (1e-6 to 1e6)"};
+// Finer steps drown what they gain in rounding, and no run ends.
+constexpr Bounds kStepsPerContact{0, 100'000, true, "more than 0, at most 100000"};
+
 // Snapshots of a run that states no interval: enough for a smooth animation.
 constexpr int kUsualSnapshots = 50;
 
@@ -29,7 +43,7 @@ void read_run(TomlTable table, dem_gpu::RunControl& run) {
     table.refuse("time_step", "time_step is given, so steps_per_contact has no meaning; keep one");
   if (table.has("preset"))
     run.preset = static_cast<dem_gpu::Preset>(table.choice("preset", {"draft", "standard", "reference"}));
-  run.steps_per_contact = table.quantity("steps_per_contact", Dimension::ratio, kPositive,
+  run.steps_per_contact = table.quantity("steps_per_contact", Dimension::ratio, kStepsPerContact,
                                          dem_gpu::promise_of(run.preset).steps_per_contact);
   run.largest_start_overlap =
       table.quantity("largest_start_overlap", Dimension::ratio, kPositive, run.largest_start_overlap);
@@ -39,12 +53,14 @@ void read_run(TomlTable table, dem_gpu::RunControl& run) {
   table.finish();
 }
 
-void read_materials(TomlTable& file, Scene& scene) {
+void read_materials(TomlTable& file, SceneDescription& description) {
+  Scene& scene = description.scene;
   for (TomlTable& table : file.named_tables("material")) {
     dem_gpu::Material material;
     material.name = table.name();
-    material.density = table.quantity("density", Dimension::density, kPositive);
-    material.youngs_modulus = table.quantity("youngs_modulus", Dimension::pressure, kPositive, material.youngs_modulus);
+    description.places["material '" + material.name + "'"] = table.place();
+    material.density = table.quantity("density", Dimension::density, kDensity);
+    material.youngs_modulus = table.quantity("youngs_modulus", Dimension::pressure, kModulus, material.youngs_modulus);
     const Bounds poisson{-1, 0.5, true, "more than -1, at most 0.5"};
     material.poisson_ratio = table.quantity("poisson_ratio", Dimension::ratio, poisson, material.poisson_ratio);
     table.finish();
@@ -59,18 +75,19 @@ dem_gpu::ContactProperties read_contact(TomlTable& table, const dem_gpu::Contact
   contact.restitution = defaults ? table.quantity("restitution", Dimension::ratio, restitution, defaults->restitution)
                                  : table.quantity("restitution", Dimension::ratio, restitution);
   contact.friction_coefficient =
-      defaults ? table.quantity("friction", Dimension::ratio, kNotNegative, defaults->friction_coefficient)
-               : table.quantity("friction", Dimension::ratio, kNotNegative);
+      defaults ? table.quantity("friction", Dimension::ratio, kFriction, defaults->friction_coefficient)
+               : table.quantity("friction", Dimension::ratio, kFriction);
   const dem_gpu::ContactProperties otherwise = defaults ? *defaults : dem_gpu::ContactProperties{};
   contact.rolling_friction =
-      table.quantity("rolling_friction", Dimension::ratio, kNotNegative, otherwise.rolling_friction);
-  contact.adhesion = table.quantity("adhesion", Dimension::surface_energy, kNotNegative, otherwise.adhesion);
+      table.quantity("rolling_friction", Dimension::ratio, kRollingFriction, otherwise.rolling_friction);
+  contact.adhesion = table.quantity("adhesion", Dimension::surface_energy, kAdhesion, otherwise.adhesion);
   table.finish();
   return contact;
 }
 
 /// Every material pair takes [contact.default] unless [contact."a-b"] says otherwise.
-void read_contacts(TomlTable& file, Scene& scene) {
+void read_contacts(TomlTable& file, SceneDescription& description) {
+  Scene& scene = description.scene;
   const std::size_t count = scene.materials.size();
   std::vector<TomlTable> tables = file.named_tables("contact");
   const dem_gpu::ContactProperties* defaults = nullptr;
@@ -78,6 +95,7 @@ void read_contacts(TomlTable& file, Scene& scene) {
   for (TomlTable& table : tables)
     if (table.name() == "default") {
       default_contact = read_contact(table, nullptr);
+      description.places["contact of "] = table.place();
       defaults = &default_contact;
     }
   if (!defaults) file.refuse("section [contact.default] with restitution and friction is missing");
@@ -96,20 +114,24 @@ void read_contacts(TomlTable& file, Scene& scene) {
         if (!seen.insert(std::minmax(a, b)).second)
           table.refuse("this pair of materials is stated already, in the other order; keep one");
         scene.contact[a][b] = scene.contact[b][a] = read_contact(table, defaults);
+        for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)})
+          description
+              .places["contact of '" + scene.materials[one].name + "' with '" + scene.materials[other].name + "'"] =
+              table.place();
       }
-    if (!is_known)
-      table.refuse("not a pair of materials; nearest known: \"" + *catalog::nearest_word(table.name(), pairs) + "\"");
+    if (!is_known) table.refuse("not a pair of materials; " + catalog::word_hint(table.name(), pairs));
   }
 }
 
 void read_contact_law(TomlTable table, SceneDescription& description) {
   Scene& scene = description.scene;
   StiffnessChoice& stiffness = description.stiffness;
+  description.places["contact law"] = table.place();
   if (!table.has("polyhedra") || table.choice("polyhedra", {"depth_potential", "volume"}) == 0) {
     dem_gpu::DepthPotential law;
     law.depth_cap = table.quantity("depth_cap", Dimension::ratio, kShare, law.depth_cap);
     scene.polyhedral_law = law;
-    if (const auto hardening = table.optional_quantity("hardening", Dimension::ratio, kPositive))
+    if (const auto hardening = table.optional_quantity("hardening", Dimension::ratio, kHardening))
       scene.polyhedral_law = dem_gpu::HardeningDepthPotential{law, *hardening};
   } else {
     scene.polyhedral_law = dem_gpu::OverlapVolume{};
@@ -117,15 +139,15 @@ void read_contact_law(TomlTable table, SceneDescription& description) {
   const bool is_hertz = table.has("spheres") && table.choice("spheres", {"linear", "hertz"}) == 1;
   scene.sphere_law = is_hertz ? dem_gpu::SphereLaw(dem_gpu::Hertz{}) : dem_gpu::SphereLaw(dem_gpu::LinearSpring{});
 
-  stiffness.polyhedra = table.optional_quantity("stiffness", Dimension::stiffness_volume, kPositive);
+  stiffness.polyhedra = table.optional_quantity("stiffness", Dimension::stiffness_volume, kStiffness);
   if (!is_hertz)
-    stiffness.spheres = table.optional_quantity("sphere_stiffness", Dimension::stiffness_length, kPositive);
+    stiffness.spheres = table.optional_quantity("sphere_stiffness", Dimension::stiffness_length, kStiffness);
   const Bounds overlap{0, 0.2, true, "more than 0, at most 20 %"};
   stiffness.largest_overlap = table.optional_quantity("largest_overlap", Dimension::ratio, overlap);
   if (stiffness.largest_overlap) {
     if (stiffness.polyhedra && (stiffness.spheres || is_hertz))
       table.refuse("largest_overlap", "every stiffness is given, so largest_overlap has no meaning; keep one");
-    stiffness.at_speed = table.quantity("at_speed", Dimension::speed, kPositive);
+    stiffness.at_speed = table.quantity("at_speed", Dimension::speed, kImpactSpeed);
     if (table.has("overlap_at"))
       stiffness.overlap_at = dem_gpu::OverlapAt{table.choice("overlap_at", {"face", "corner"})};
   } else if (!stiffness.polyhedra && !stiffness.spheres && !is_hertz) {
@@ -134,19 +156,20 @@ void read_contact_law(TomlTable table, SceneDescription& description) {
 
   dem_gpu::Friction friction;
   friction.tangential_stiffness_ratio =
-      table.quantity("tangential_stiffness_ratio", Dimension::ratio, kPositive, friction.tangential_stiffness_ratio);
+      table.quantity("tangential_stiffness_ratio", Dimension::ratio, kSpringRatio, friction.tangential_stiffness_ratio);
   scene.friction = table.flag("friction", true) ? std::optional(friction) : std::nullopt;
   table.finish();
 }
 
-void read_outflow(TomlTable& file, Scene& scene) {
+void read_outflow(TomlTable& file, SceneDescription& description) {
   std::optional<TomlTable> table = file.optional_table("outflow");
   if (!table) return;
+  description.places["outflow: "] = table->place();
   dem_gpu::Outflow outflow;
   if (table->has("direction")) outflow.direction = to_vec3(table->direction("direction"));
   outflow.height = table->quantity("height", Dimension::length);
   table->finish();
-  scene.outflow = outflow;
+  description.scene.outflow = outflow;
 }
 
 dem_gpu::PeriodicSpan read_span(TomlTable& table, std::string_view axis) {
@@ -159,16 +182,17 @@ dem_gpu::PeriodicSpan read_span(TomlTable& table, std::string_view axis) {
   return span;
 }
 
-void read_periodic(TomlTable& file, Scene& scene) {
+void read_periodic(TomlTable& file, SceneDescription& description) {
   std::optional<TomlTable> table = file.optional_table("periodic");
   if (!table) return;
+  description.places["periodic box: "] = table->place();
   constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
   dem_gpu::PeriodicBox box;
   for (std::size_t axis = 0; axis < axes.size(); ++axis)
     if (table->has(axes[axis])) box.span[axis] = read_span(*table, axes[axis]);
   table->finish();
   if (box == dem_gpu::PeriodicBox{}) table->refuse("state along which axes, such as x = [\"0 mm\", \"120 mm\"]");
-  scene.periodic = box;
+  description.scene.periodic = box;
 }
 
 }  // namespace
@@ -197,23 +221,24 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
   TomlTable table(root, file.string(), "");
   table.expect_only({"name", "gravity", "run", "material", "contact", "contact_law", "ledger", "motion", "wall",
                      "lifters", "outflow", "periodic", "fill", "chain"});
-  scene.name = table.text("name", file.stem().string());
-  if (scene.name.empty() || scene.name == "." || scene.name == ".." || scene.name.find('/') != std::string::npos)
-    table.refuse("name", "name must not be empty, \".\" or \"..\" or hold '/': the run's folder is named for it");
-  if (table.has("gravity")) scene.gravity = to_vec3(table.vector("gravity", Dimension::acceleration));
+  scene.name = table.plain_name("name", file.stem().string());
+  if (scene.name == "." || scene.name == "..")
+    table.refuse(
+        "name", "name is \"" + scene.name + "\"; a name must not be \".\" or \"..\": the run's folder is named for it");
+  if (table.has("gravity")) scene.gravity = to_vec3(table.vector("gravity", Dimension::acceleration, kAcceleration));
   const TomlTable run = table.table("run");
-  description.run_place = run.place();
+  description.places["run: "] = run.place();
   read_run(run, scene.run);
-  read_materials(table, scene);
-  read_contacts(table, scene);
+  read_materials(table, description);
+  read_contacts(table, description);
   read_contact_law(table.table("contact_law"), description);
   if (std::optional<TomlTable> ledger = table.optional_table("ledger")) {
     scene.energy_ledger = ledger->flag("enabled", true);
     ledger->finish();
   }
-  read_walls(table, read_motions(table), base_folder, scene);
-  read_outflow(table, scene);
-  read_periodic(table, scene);
+  read_walls(table, read_motions(table), base_folder, description);
+  read_outflow(table, description);
+  read_periodic(table, description);
   description.fills = read_fills(table, scene, base_folder);
   description.chains = read_chains(table, scene, base_folder);
   if (description.fills.empty() && description.chains.empty())

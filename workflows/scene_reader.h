@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <variant>
@@ -70,9 +71,10 @@ struct StiffnessChoice {
 /// A scene file as written: everything that needs neither catalogue nor engine.
 struct SceneDescription {
   std::filesystem::path file;
-  std::string run_place;  // "scene.toml:4:1" of [run], for messages
-  std::string text;       // the file's bytes
-  dem_gpu::Scene scene;   // without shapes and bodies; stiffness still to be worked out
+  /// "scene.toml:4:1" of the sections, by what the engine's messages about each begin with: "wall 'gate'".
+  std::map<std::string, std::string> places;
+  std::string text;      // the file's bytes
+  dem_gpu::Scene scene;  // without shapes and bodies; stiffness still to be worked out
   StiffnessChoice stiffness;
   std::vector<FillDescription> fills;
   std::vector<ChainDescription> chains;

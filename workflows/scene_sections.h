@@ -15,6 +15,9 @@ namespace workflows {
 inline dem_gpu::Vec3 to_vec3(const Point& p) { return {p[0], p[1], p[2]}; }
 inline Point to_point(const dem_gpu::Vec3& v) { return {v.x, v.y, v.z}; }
 
+/// Components of velocities: beyond it squares of speeds and the step of a run lose their meaning.
+inline constexpr Bounds kSpeed{-1e6, 1e6, false, "from -1e6 to 1e6 m/s"};
+
 /// Index of the material named at `key`.
 int read_material_name(TomlTable& table, std::string_view key, const std::vector<dem_gpu::Material>& materials);
 
@@ -24,7 +27,7 @@ NamedMotions read_motions(TomlTable& file);
 
 /// [[wall]] and [[lifters]], in this order. Refuses equal names. Mesh files are sought from `base_folder`.
 void read_walls(TomlTable& file, const NamedMotions& motions, const std::filesystem::path& base_folder,
-                dem_gpu::Scene& scene);
+                SceneDescription& description);
 
 /// [[fill]].
 std::vector<FillDescription> read_fills(TomlTable& file, const dem_gpu::Scene& scene,

@@ -21,13 +21,15 @@ using dem_gpu::Wall;
 // corners of particles to find.
 constexpr double kLifterReach = 0.05;
 constexpr int kMostLifters = 1000;
+constexpr Bounds kTurning{-1e9, 1e9, false, "from -1e9 to 1e9 rad/s"};
+constexpr Bounds kFrequency{0, 1e12, true, "more than 0, at most 1e12 rad/s"};
 
 /// oscillate = [0, 0, "1 mm"] and swing = "2 deg" about `axis`, with frequency and phase.
 void read_oscillation(TomlTable& table, dem_gpu::Motion& motion) {
   if (table.has("oscillate")) motion.amplitude = to_vec3(table.vector("oscillate", Dimension::length));
   if (table.has("swing"))
     motion.angular_amplitude = table.quantity("swing", Dimension::angle) * to_vec3(table.direction("axis"));
-  motion.frequency = table.quantity("frequency", Dimension::angular_velocity, kPositive) / (2 * std::numbers::pi);
+  motion.frequency = table.quantity("frequency", Dimension::angular_velocity, kFrequency) / (2 * std::numbers::pi);
   motion.phase = table.quantity("phase", Dimension::angle, kAny, 0);
 }
 
@@ -37,12 +39,12 @@ dem_gpu::Motion read_motion(TomlTable& table) {
   if (!table.has("rotate") && !table.has("translate") && !oscillates)
     table.refuse("state rotate or swing, with axis and centre, translate, or oscillate");
   if (table.has("rotate")) {
-    const double speed = table.quantity("rotate", Dimension::angular_velocity);
+    const double speed = table.quantity("rotate", Dimension::angular_velocity, kTurning);
     motion.angular_velocity = speed * to_vec3(table.direction("axis"));
   }
   if (table.has("rotate") || table.has("swing"))
     motion.rotation_centre = to_vec3(table.vector("centre", Dimension::length));
-  if (table.has("translate")) motion.velocity = to_vec3(table.vector("translate", Dimension::speed));
+  if (table.has("translate")) motion.velocity = to_vec3(table.vector("translate", Dimension::speed, kSpeed));
   if (oscillates) read_oscillation(table, motion);
   motion.start_time = table.quantity("start", Dimension::time, kNotNegative, 0);
   motion.ramp_time = table.quantity("ramp", Dimension::time, kNotNegative, 0);
@@ -77,6 +79,17 @@ catalog::ConvexPart moved(catalog::ConvexPart part, const dem_gpu::Quaternion& r
   return part;
 }
 
+/// The body that points span; what is flat is refused at `key`.
+catalog::ConvexPart solid_of(const TomlTable& table, std::string_view key, const std::vector<Point>& points) {
+  try {
+    catalog::ConvexPart part = convex_hull(points);
+    dem_gpu::polyhedral_shape("solid", {part});
+    return part;
+  } catch (const catalog::InputError& error) {
+    table.refuse(key, std::string(key) + ": no convex solid (" + error.what() + ")");
+  }
+}
+
 catalog::ConvexPart read_block(TomlTable& table) {
   const Vec3 size = read_point(table, "size");
   if (!(size.x > 0 && size.y > 0 && size.z > 0)) table.refuse("size", "size must be three edges, each more than 0");
@@ -91,7 +104,7 @@ catalog::ConvexPart read_block(TomlTable& table) {
   for (int corner = 0; corner < 8; ++corner)
     corners.push_back(
         {(corner & 1 ? 0.5 : -0.5) * size.x, (corner & 2 ? 0.5 : -0.5) * size.y, (corner & 4 ? 0.5 : -0.5) * size.z});
-  return moved(convex_hull(corners), rotation, centre);
+  return moved(solid_of(table, "size", corners), rotation, centre);
 }
 
 catalog::ConvexPart read_polyhedron(TomlTable& table) {
@@ -102,11 +115,7 @@ catalog::ConvexPart read_polyhedron(TomlTable& table) {
   std::vector<Point> vertices;
   for (std::size_t i = 0; i < rows.size(); ++i)
     vertices.push_back(table.element_vector(rows[i], "vertices[" + std::to_string(i) + "]", Dimension::length));
-  try {
-    return convex_hull(vertices);
-  } catch (const catalog::InputError& error) {
-    table.refuse("vertices", error.what());
-  }
+  return solid_of(table, "vertices", vertices);
 }
 
 /// Are the bodies inside? `bodies = "inside"` or "outside".
@@ -179,11 +188,11 @@ void refuse_equal_name(const TomlTable& table, const std::string& name, const st
 Wall read_wall(TomlTable& table, const NamedMotions& motions, const std::vector<dem_gpu::Material>& materials,
                const std::filesystem::path& base_folder) {
   Wall wall;
-  wall.name = table.text("name");
+  wall.name = table.plain_name("name");
   table.rename("wall \"" + wall.name + "\"");
   wall.geometry = read_geometry(table, base_folder);
   wall.material = read_material_name(table, "material", materials);
-  wall.contact_class = table.text("class", "");
+  wall.contact_class = table.plain_name("class", "");
   read_motion_of(table, motions, wall);
   wall.removed_at = table.optional_quantity("open_at", Dimension::time, kNotNegative);
   table.finish();
@@ -196,8 +205,8 @@ struct LifterSection {
   double face_angle;     // between the flanks and the shell [rad]
 };
 
-catalog::ConvexPart lifter_part(const dem_gpu::Cylinder& shell, const LifterSection& section, double angle,
-                                const std::array<double, 2>& ends) {
+catalog::ConvexPart lifter_part(const TomlTable& table, const dem_gpu::Cylinder& shell, const LifterSection& section,
+                                double angle, const std::array<double, 2>& ends) {
   const Vec3 start = dem_gpu::any_perpendicular(shell.axis);
   const Vec3 outward = std::cos(angle) * start + std::sin(angle) * dem_gpu::cross(shell.axis, start);
   const Vec3 along_shell = dem_gpu::cross(shell.axis, outward);
@@ -210,11 +219,11 @@ catalog::ConvexPart lifter_part(const dem_gpu::Cylinder& shell, const LifterSect
         const double half_width = section.width / 2 - (shell.radius - radius) * slope;
         corners.push_back(to_point(shell.base + end * shell.axis + radius * outward + side * half_width * along_shell));
       }
-  return convex_hull(corners);
+  return solid_of(table, section.height < section.width ? "height" : "width", corners);
 }
 
 void read_lifters(TomlTable& table, dem_gpu::Scene& scene) {
-  const std::string prefix = table.text("name", "lifter");
+  const std::string prefix = table.plain_name("name", "lifter");
   table.rename("lifters \"" + prefix + "\"");
   std::vector<std::string> names;
   for (const Wall& wall : scene.walls)
@@ -247,10 +256,10 @@ void read_lifters(TomlTable& table, dem_gpu::Scene& scene) {
     lifter.name = prefix + number;
     refuse_equal_name(table, lifter.name, scene.walls);
     const double angle = first + 2 * std::numbers::pi * double(i) / double(count);
-    lifter.geometry = dem_gpu::VolumeObject{lifter_part(shell, section, angle, ends)};
+    lifter.geometry = dem_gpu::VolumeObject{lifter_part(table, shell, section, angle, ends)};
     lifter.material =
         table.has("material") ? read_material_name(table, "material", scene.materials) : shell_wall.material;
-    lifter.contact_class = table.text("class", "lifter");
+    lifter.contact_class = table.plain_name("class", "lifter");
     lifter.motion = shell_wall.motion;
     lifter.group = shell_wall.group;
     scene.walls.push_back(lifter);
@@ -267,13 +276,23 @@ NamedMotions read_motions(TomlTable& file) {
 }
 
 void read_walls(TomlTable& file, const NamedMotions& motions, const std::filesystem::path& base_folder,
-                dem_gpu::Scene& scene) {
+                SceneDescription& description) {
+  dem_gpu::Scene& scene = description.scene;
+  std::size_t known = 0;
+  const auto note_places = [&](const TomlTable& table) {
+    for (; known < scene.walls.size(); ++known)
+      description.places["wall '" + scene.walls[known].name + "'"] = table.place();
+  };
   for (TomlTable& table : file.tables("wall")) {
     Wall wall = read_wall(table, motions, scene.materials, base_folder);
     refuse_equal_name(table, wall.name, scene.walls);
     scene.walls.push_back(std::move(wall));
+    note_places(table);
   }
-  for (TomlTable& table : file.tables("lifters")) read_lifters(table, scene);
+  for (TomlTable& table : file.tables("lifters")) {
+    read_lifters(table, scene);
+    note_places(table);
+  }
 }
 
 }  // namespace workflows

@@ -48,29 +48,55 @@ std::string load_row(const std::string& time, const std::string& name, const dem
               cell(load.torque.y), cell(load.torque.z), cell(load.power), cell(load.work)});
 }
 
-/// Header and whole rows up to a time.
-std::string kept_rows(const std::string& text, const std::string& header, double until) {
-  std::string kept = header + "\n";
-  std::size_t start = text.find('\n');
-  if (start == std::string::npos || text.compare(0, start, header) != 0) return kept;
-  ++start;
-  // Times are printed to 12 digits.
-  const double limit = until + 1e-11 * (1 + until);
+/// Times are printed to 12 digits: the largest that may be meant by one.
+double rounded_up(double time) { return time + 1e-11 * (1 + time); }
+
+/// Calls visit(time, row with its end) for whole rows up to a time.
+template <class Visitor>
+void visit_rows(const std::string& text, double until, const Visitor& visit) {
+  std::size_t start = text.find('\n') + 1;
   for (std::size_t end = text.find('\n', start); end != std::string::npos; end = text.find('\n', start)) {
-    if (std::strtod(text.c_str() + start, nullptr) > limit) break;
-    kept.append(text, start, end + 1 - start);
+    const double time = std::strtod(text.c_str() + start, nullptr);
+    if (time > rounded_up(until)) break;
+    visit(time, text.substr(start, end + 1 - start));
     start = end + 1;
   }
-  return kept;
 }
 
 }  // namespace
 
 SeriesFile::SeriesFile(std::filesystem::path file, const std::string& header, double keep_until)
     : file_(std::move(file)) {
-  const std::string earlier = keep_until >= 0 ? read_whole(file_).value_or("") : "";
-  write_whole(file_, kept_rows(earlier, header, keep_until));
+  std::string kept = header + "\n";
+  if (keep_until >= 0) {
+    const std::optional<std::string> earlier = read_whole(file_);
+    if (!earlier) {
+      fault_ = "was missing";
+    } else if (earlier->starts_with(kept)) {
+      double first_time = -1;
+      visit_rows(*earlier, keep_until, [&](double time, const std::string& row) {
+        kept += row;
+        if (first_time < 0) first_time = time;
+        first_rows_ += time == first_time;
+        last_rows_ = time == last_time_ ? last_rows_ + 1 : 1;
+        last_time_ = time;
+      });
+    } else {
+      fault_ = "has another header, and is kept as " + file_.filename().string() + ".old";
+      std::filesystem::rename(file_, file_.string() + ".old");
+    }
+  }
+  write_whole(file_, kept);
   stream_.open(file_, std::ios::app);
+}
+
+std::string SeriesFile::gap(double due) const {
+  const std::string lost = "; it goes on without its rows up to " + cell(due) + " s";
+  if (!fault_.empty()) return file_.string() + ": " + fault_ + lost;
+  if (rounded_up(last_time_) < due)
+    return file_.string() + ": " + (last_time_ < 0 ? "has no rows" : "ends at " + cell(last_time_) + " s") + lost;
+  if (last_rows_ < first_rows_) return file_.string() + ": was cut; it goes on without some rows of its last time";
+  return "";
 }
 
 void SeriesFile::append(const std::string& row) { stream_ << row << '\n'; }
@@ -89,6 +115,18 @@ RunSeries::RunSeries(const std::filesystem::path& run_folder, const dem_gpu::Sce
     wall_groups_.push_back(wall.group);
     if (!wall.group.empty() && !groups_) groups_.emplace(run_folder / "groups.csv", kGroupsHeader, keep_until);
   }
+}
+
+std::vector<std::string> RunSeries::gaps(double due) const {
+  std::vector<std::string> all;
+  const auto add = [&](const SeriesFile& file) {
+    if (std::string gap = file.gap(due); !gap.empty()) all.push_back(std::move(gap));
+  };
+  add(time_series_);
+  if (!wall_names_.empty()) add(walls_);
+  if (has_ledger_) add(ledger_);
+  if (groups_) add(*groups_);
+  return all;
 }
 
 void RunSeries::append_groups(const std::string& time, const std::vector<dem_gpu::WallLoad>& loads) {

@@ -5,13 +5,16 @@
 #include <iostream>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "catalog/input_error.h"
 #include "workflows/atomic_file.h"
+#include "workflows/idle_settings.h"
 #include "workflows/resolved_scene.h"
 #include "workflows/run_loop.h"
 #include "workflows/run_promises.h"
 #include "workflows/run_reports.h"
+#include "workflows/scene_place.h"
 #include "workflows/stage_tool.h"
 #include "workflows/thread_count.h"
 #include "workflows/units.h"
@@ -130,17 +133,6 @@ void start_log(const RunFolder& folder, const dem_gpu::Simulation& simulation, c
   folder.log("passes: " + passes);
 }
 
-/// The engine's own check, its message made to say which file.
-void check_scene(const AssembledScene& assembled, const SceneDescription& description) {
-  try {
-    dem_gpu::check(assembled.scene);
-  } catch (const catalog::InputError& error) {
-    const std::string what = error.what();
-    throw catalog::InputError((what.starts_with("run:") ? description.run_place : description.file.string()) + ": " +
-                              what);
-  }
-}
-
 double earlier_wall_seconds(const RunFolder& folder) {
   const nlohmann::ordered_json summary = folder.read_json("run.json");
   return summary.contains("wall_seconds") && summary["wall_seconds"].is_number() ? summary["wall_seconds"].get<double>()
@@ -180,15 +172,18 @@ int simulate(const SimulateOptions& options) {
   const fs::path scene_folder = fs::absolute(description.file).lexically_normal().parent_path();
   const nlohmann::ordered_json resolved = resolved_scene(assembled, description, scene_folder.string());
   if (options.dry_run) {
+    for (const std::string& warning : idle_settings(description, assembled.scene))
+      std::fprintf(stderr, "simulate: warning: %s\n", warning.c_str());
     print_dry_run(assembled, description, resolved, options.json);
     return kDone;
   }
 
   // Run it.
   catch_stop_signals();
-  dem_gpu::Simulation simulation(assembled.scene);
+  dem_gpu::Simulation simulation = start_simulation(assembled, description);
   RunPlan plan{description, assembled, folder, options.command};
   bool from_checkpoint = false;
+  std::vector<std::string> warnings;
   if (options.is_resumed) {
     plan.earlier_wall_seconds = earlier_wall_seconds(folder);
     from_checkpoint = folder.has_checkpoint();
@@ -197,13 +192,17 @@ int simulate(const SimulateOptions& options) {
     else
       std::fprintf(stderr, "simulate: %s has no checkpoint yet; it starts again from time 0\n", folder.path().c_str());
     keep_end_time(folder, assembled.scene.run.end_time);
+    warnings =
+        folder.mend(simulation.geometry(), from_checkpoint ? schedule.snapshots.last_index(simulation.step()) : -1);
   } else {
     folder.start(description, resolved, simulation.geometry());
   }
   start_log(folder, simulation, options);
-  if (const auto warning = start_warning(assembled.scene)) {
-    std::fprintf(stderr, "simulate: warning: %s\n", warning->c_str());
-    folder.log("warning: " + *warning);
+  for (const std::string& idle : idle_settings(description, assembled.scene)) warnings.push_back(idle);
+  if (const auto warning = start_warning(assembled.scene)) warnings.push_back(*warning);
+  for (const std::string& warning : warnings) {
+    std::fprintf(stderr, "simulate: warning: %s\n", warning.c_str());
+    folder.log("warning: " + warning);
   }
   std::fprintf(stderr, "%s%s", scene_table(assembled).c_str(), size_table(assembled, description).c_str());
   const ExitStatus status = run_to_end(simulation, plan, from_checkpoint);

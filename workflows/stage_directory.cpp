@@ -56,8 +56,7 @@ fs::path stage_executable(const fs::path& folder, const std::string& stage) {
     throw catalog::UsageError("stage " + stage + " is not built: expected " + executable.string() +
                               "; build it with make build");
   }
-  throw catalog::UsageError("unknown stage '" + stage + "'; did you mean '" + *catalog::nearest_word(stage, names) +
-                            "'? See talus --help");
+  throw catalog::UsageError("unknown stage '" + stage + "'; " + catalog::word_hint(stage, names) + " See talus --help");
 }
 
 }  // namespace workflows

@@ -7,12 +7,11 @@
 
 #include "catalog/input_error.h"
 #include "catalog/nearest_word.h"
+#include "workflows/plain_name.h"
+#include "workflows/text_format.h"
 
 namespace workflows {
 namespace {
-
-// A key that is missing while one this close stands in the table: a slip of the pen, reported as such.
-constexpr std::size_t kSlipDistance = 2;
 
 std::string kind_of(const toml::node& node) {
   switch (node.type()) {
@@ -60,9 +59,10 @@ const toml::node* TomlTable::find(std::string_view key) {
 
 const toml::node& TomlTable::require(std::string_view key) {
   if (const toml::node* node = find(key)) return *node;
+  // Missing while one close to it stands in the table: a slip of the pen, reported as such.
   for (const auto& [present, node] : *table_)
-    if (!known_.contains(present.str()) && catalog::edit_distance(present.str(), key) <= kSlipDistance)
-      refuse_unknown(present, std::string(key));
+    if (!known_.contains(present.str()) && catalog::nearest_word(present.str(), {std::string(key)}))
+      refuse_unknown(present, {std::string(key)});
   refuse("key '" + std::string(key) + "' is missing");
 }
 
@@ -82,7 +82,7 @@ double TomlTable::element(const toml::node& node, const std::string& place, Dime
     shown = "\"" + *text + "\"";
   } else if (node.is_number()) {
     value = node.value<double>();
-    shown = std::to_string(*value);
+    shown = formatted("%.6g", *value);
   } else {
     shown = kind_of(node);
   }
@@ -105,18 +105,18 @@ std::optional<double> TomlTable::optional_quantity(std::string_view key, Dimensi
   return element(*node, std::string(key), dimension, bounds);
 }
 
-std::array<double, 3> TomlTable::element_vector(const toml::node& node, const std::string& place,
-                                                Dimension dimension) const {
+std::array<double, 3> TomlTable::element_vector(const toml::node& node, const std::string& place, Dimension dimension,
+                                                const Bounds& bounds) const {
   const toml::array* array = node.as_array();
   if (!array || array->size() != 3) refuse_at(node.source(), place + " must be an array of three: [x, y, z]");
   std::array<double, 3> vector{};
   for (std::size_t i = 0; i < 3; ++i)
-    vector[i] = element((*array)[i], place + "[" + std::to_string(i) + "]", dimension, kAny);
+    vector[i] = element((*array)[i], place + "[" + std::to_string(i) + "]", dimension, bounds);
   return vector;
 }
 
-std::array<double, 3> TomlTable::vector(std::string_view key, Dimension dimension) {
-  return element_vector(require(key), std::string(key), dimension);
+std::array<double, 3> TomlTable::vector(std::string_view key, Dimension dimension, const Bounds& bounds) {
+  return element_vector(require(key), std::string(key), dimension, bounds);
 }
 
 std::array<double, 3> TomlTable::direction(std::string_view key) {
@@ -135,6 +135,16 @@ std::string TomlTable::text(std::string_view key) {
 
 std::string TomlTable::text(std::string_view key, std::string default_value) {
   return has(key) ? text(key) : std::move(default_value);
+}
+
+std::string TomlTable::plain_name(std::string_view key) {
+  std::string name = text(key);
+  if (!is_plain_name(name)) refuse(key, std::string(key) + " is " + shown_name(name) + "; " + kPlainName);
+  return name;
+}
+
+std::string TomlTable::plain_name(std::string_view key, std::string default_value) {
+  return has(key) ? plain_name(key) : std::move(default_value);
 }
 
 bool TomlTable::flag(std::string_view key, bool default_value) {
@@ -157,9 +167,12 @@ std::int64_t TomlTable::integer(std::string_view key, std::int64_t least, std::i
 int TomlTable::choice(std::string_view key, const std::vector<std::string>& choices) {
   const std::string word = text(key);
   const auto found = std::find(choices.begin(), choices.end(), word);
-  if (found == choices.end())
-    refuse(key, std::string(key) + " is \"" + word + "\"; nearest known: \"" + *catalog::nearest_word(word, choices) +
-                    "\" (of " + listed(choices) + ")");
+  if (found == choices.end()) {
+    const auto nearest = catalog::nearest_word(word, choices);
+    refuse(key, std::string(key) + " is \"" + word + "\"; " +
+                    (nearest ? "nearest known: \"" + *nearest + "\" (of " + listed(choices) + ")"
+                             : "expected one of " + listed(choices)));
+  }
   return static_cast<int>(found - choices.begin());
 }
 
@@ -197,6 +210,9 @@ std::vector<TomlTable> TomlTable::named_tables(std::string_view key) {
   const TomlTable parent = table(key);
   for (const auto& [name, node] : *parent.table_) {
     const std::string title = std::string(key) + " \"" + std::string(name.str()) + "\"";
+    if (!is_plain_name(std::string(name.str())))
+      refuse_at(name.source(),
+                std::string(key) + " is named " + shown_name(std::string(name.str())) + "; " + kPlainName);
     if (!node.is_table())
       refuse_at(name.source(), title + " is " + kind_of(node) + "; expected a table headed [" + std::string(key) + "." +
                                    std::string(name.str()) + "]");
@@ -223,11 +239,14 @@ void TomlTable::expect_only(const std::vector<std::string>& keys) {
 void TomlTable::finish() const {
   const std::vector<std::string> known(known_.begin(), known_.end());
   for (const auto& [key, node] : *table_)
-    if (!known_.contains(key.str())) refuse_unknown(key, catalog::nearest_word(key.str(), known).value_or("none"));
+    if (!known_.contains(key.str())) refuse_unknown(key, known);
 }
 
-void TomlTable::refuse_unknown(const toml::key& key, const std::string& nearest) const {
-  refuse_at(key.source(), "unknown key '" + std::string(key.str()) + "'; nearest known key: '" + nearest + "'");
+void TomlTable::refuse_unknown(const toml::key& key, const std::vector<std::string>& known) const {
+  const auto nearest = catalog::nearest_word(key.str(), known);
+  refuse_at(key.source(),
+            "unknown key '" + std::string(key.str()) + "'; " +
+                (nearest ? "nearest known key: '" + *nearest + "'" : "known keys: " + catalog::quoted_list(known)));
 }
 
 void TomlTable::refuse(std::string_view key, const std::string& message) const {

@@ -42,11 +42,15 @@ class TomlTable {
   double quantity(std::string_view key, Dimension dimension, const Bounds& bounds = kAny);
   double quantity(std::string_view key, Dimension dimension, const Bounds& bounds, double default_value);
   std::optional<double> optional_quantity(std::string_view key, Dimension dimension, const Bounds& bounds = kAny);
-  std::array<double, 3> vector(std::string_view key, Dimension dimension);
+  /// `bounds` of each component.
+  std::array<double, 3> vector(std::string_view key, Dimension dimension, const Bounds& bounds = kAny);
   std::array<double, 3> direction(std::string_view key);  // made unit; refused if zero
 
   std::string text(std::string_view key);
   std::string text(std::string_view key, std::string default_value);
+  /// Text that results are told apart by; see plain_name.h.
+  std::string plain_name(std::string_view key);
+  std::string plain_name(std::string_view key, std::string default_value);
   bool flag(std::string_view key, bool default_value);
   std::int64_t integer(std::string_view key, std::int64_t least, std::int64_t most);
   /// Index into `choices` of the word at `key`.
@@ -54,14 +58,16 @@ class TomlTable {
 
   TomlTable table(std::string_view key);
   std::optional<TomlTable> optional_table(std::string_view key);
-  std::vector<TomlTable> tables(std::string_view key);        // [[key]]; none if absent
-  std::vector<TomlTable> named_tables(std::string_view key);  // [key.NAME], each titled `key "NAME"`; in file order
-  const toml::array& array(std::string_view key);             // raw, for element() and element_vector()
-  bool is_text(std::string_view key);                         // false if absent
+  std::vector<TomlTable> tables(std::string_view key);  // [[key]]; none if absent
+  /// [key.NAME] with plain names, each titled `key "NAME"`; in file order.
+  std::vector<TomlTable> named_tables(std::string_view key);
+  const toml::array& array(std::string_view key);  // raw, for element() and element_vector()
+  bool is_text(std::string_view key);              // false if absent
 
   /// One element of an array read by array(); `place` names it in messages.
   double element(const toml::node& node, const std::string& place, Dimension dimension, const Bounds& bounds) const;
-  std::array<double, 3> element_vector(const toml::node& node, const std::string& place, Dimension dimension) const;
+  std::array<double, 3> element_vector(const toml::node& node, const std::string& place, Dimension dimension,
+                                       const Bounds& bounds = kAny) const;
 
   /// The last part of a named table's key.
   const std::string& name() const { return name_; }
@@ -80,7 +86,7 @@ class TomlTable {
   const toml::node* find(std::string_view key);
   const toml::node& require(std::string_view key);
   [[noreturn]] void refuse_at(const toml::source_region& source, const std::string& message) const;
-  [[noreturn]] void refuse_unknown(const toml::key& key, const std::string& nearest) const;
+  [[noreturn]] void refuse_unknown(const toml::key& key, const std::vector<std::string>& known) const;
   std::string called(std::string_view key) const;
 
   const toml::table* table_;

@@ -168,8 +168,8 @@ class Parser {
       fail(token, "expected a name, a number or a text in quotes, not " + shown(token));
     std::vector<std::string> known = descriptors_;
     for (const Column& column : kColumns) known.push_back(column.name);
-    fail(token, "unknown word '" + token.spelling + "'; did you mean '" + *nearest_word(token.spelling, known) +
-                    "'? Texts stand in quotes");
+    fail(token,
+         "unknown word '" + token.spelling + "'; " + word_hint(token.spelling, known) + " Texts stand in quotes");
   }
 
   void expect_same_kind(const Operand& left, const Operand& right) {

@@ -30,6 +30,7 @@ ContactView view(ContactColumns& c) {
           pointer(c.turning_displacement),
           pointer(c.spring_normal),
           pointer(c.elastic_work),
+          pointer(c.orbit_loss),
           pointer(c.tangential_energy),
           pointer(c.loss_normal),
           pointer(c.loss_shear),
@@ -67,6 +68,7 @@ void resize_columns(ContactColumns& columns, int count, const ContactFeatures& f
        {&columns.last_elastic_force, &columns.last_elastic_torque_a, &columns.last_elastic_torque_b,
         &columns.last_damping_force, &columns.last_friction_force})
     reset(*column, ledger);
+  reset(columns.orbit_loss, features.has_spheres ? ledger : 0);
   reset(columns.last_friction_couple, features.has_friction_couples ? ledger : 0);
   reset(columns.wall_impulse, features.has_walls ? count : 0);
   reset(columns.wall_angular_impulse, features.has_walls ? count : 0);

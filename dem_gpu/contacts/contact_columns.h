@@ -66,6 +66,7 @@ struct ContactColumns {
 
   // With a ledger.
   DeviceVector<Real> elastic_work;           // recoverable, done against the elastic normal force since touch [J]
+  DeviceVector<Real> orbit_loss;             // with spheres: to the dashpot in the step to come [J]
   DeviceVector<Real> tangential_energy;      // in the tangential spring [J]
   DeviceVector<Real> loss_normal;            // dissipated since last read [J]
   DeviceVector<Real> loss_shear;             // [J]
@@ -101,6 +102,7 @@ struct ContactView {
   Vec3* turning_displacement;
   Vec3* spring_normal;
   Real* elastic_work;
+  Real* orbit_loss;
   Real* tangential_energy;
   Real* loss_normal;
   Real* loss_shear;
@@ -142,6 +144,7 @@ TALUS_HD void visit_history(const ContactFeatures& features, Visitor&& visitor) 
   if (features.has_friction && features.has_polyhedra) visitor(&ContactView::spring_normal);
   if (!features.has_ledger) return;
   visitor(&ContactView::elastic_work);
+  if (features.has_spheres) visitor(&ContactView::orbit_loss);
   visitor(&ContactView::tangential_energy);
   visitor(&ContactView::last_elastic_force);
   visitor(&ContactView::last_elastic_torque_a);

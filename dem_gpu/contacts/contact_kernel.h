@@ -28,7 +28,7 @@ struct ContactScene {
   const int* welds;
   const PairProperties* pairs;
   int material_count;
-  Real time_step;  // [s]
+  Step step;  // that ends now
 
   TALUS_HD const PairProperties& pair(int material_a, int material_b) const {
     return pairs[material_a * material_count + material_b];
@@ -39,11 +39,15 @@ struct ContactScene {
 };
 
 inline ContactScene contact_scene(const Model& model, State& state) {
-  return {view(state.contacts), bodies_with_ghosts(model, state),
-          view(model.shapes),   view(model.meshes),
-          state.walls.device(), state.walls.welds(),
-          pointer(model.pairs), model.material_count,
-          model.time_step};
+  return {view(state.contacts),
+          bodies_with_ghosts(model, state),
+          view(model.shapes),
+          view(model.meshes),
+          state.walls.device(),
+          state.walls.welds(),
+          pointer(model.pairs),
+          model.material_count,
+          {model.time_step, state.step == 1}};
 }
 
 /// What stands on side b of a contact.
@@ -78,7 +82,7 @@ struct ComputeContact {
     const ContactSide side_a = body_side(scene.bodies, a);
     const ContactSide side_b = other_side(b);
     if (!is_touching) {
-      end_contact<typename Geometry::Damping, Friction, Record>(scene.contacts, c, side_a, side_b, scene.time_step);
+      end_contact<typename Geometry::Damping, Friction, Record>(scene.contacts, c, side_a, side_b, scene.step.length);
       return;
     }
     const int material_a = scene.bodies.material[a];
@@ -86,11 +90,11 @@ struct ComputeContact {
     if constexpr (Geometry::Partner::kIsWall)
       respond<typename Geometry::Damping, Friction, Record>(scene.contacts, c, elastic, side_a, side_b,
                                                             scene.pair(material_a, scene.walls[b].material), friction,
-                                                            patch, scene.time_step, diameter_a);
+                                                            patch, scene.step, diameter_a);
     else
       respond<typename Geometry::Damping, Friction, Record>(
           scene.contacts, c, elastic, side_a, side_b, scene.pair(material_a, scene.bodies.material[b]), friction, patch,
-          scene.time_step, std::min(diameter_a, scene.bodies.diameter[b]));
+          scene.step, std::min(diameter_a, scene.bodies.diameter[b]));
   }
 
   TALUS_HD ContactSide other_side(int b) const {

@@ -67,6 +67,7 @@ struct WorkRecord {
 };
 
 struct ContactForces {
+  NormalDamping normal;
   Vec3 damping;             // on a [N]
   FrictionForces friction;  // on a
   Real effective_mass = 0;  // that an impulse along the normal meets [kg]
@@ -115,6 +116,14 @@ TALUS_HD inline void record_work(const ContactView& contacts, int c, const StepW
   if (is_wall) contacts.wall_work[c] += work.by_wall;
 }
 
+/// A contact on its orbit has the stored energy of its depth and has lost what the dashpot took on the orbit: where
+/// the steps led the bodies elsewhere, it shows as imbalance.
+TALUS_HD inline void record_orbit(const ContactView& contacts, int c, const NormalDamping& normal, Real energy) {
+  contacts.loss_normal[c] += contacts.orbit_loss[c];
+  contacts.orbit_loss[c] = normal.loss;
+  if (normal.is_orbit) contacts.elastic_work[c] = energy;
+}
+
 /// No force this step; the history ends.
 template <class Damping, class Friction, class Record>
 TALUS_HD void end_contact(const ContactView& contacts, int c, const ContactSide& a, const ContactSide& b,
@@ -125,6 +134,7 @@ TALUS_HD void end_contact(const ContactView& contacts, int c, const ContactSide&
     none.point = contacts.point[c];
     const StepWork work = step_work<Friction>(contacts, c, none, Vec3{}, ContactForces{}, a, b, time_step);
     record_work(contacts, c, work, 0, false, is_wall_kind(key_kind(contacts.key[c])));
+    if constexpr (Damping::kHasOrbit) record_orbit(contacts, c, NormalDamping{}, 0);
     contacts.last_elastic_force[c] = contacts.last_elastic_torque_a[c] = contacts.last_elastic_torque_b[c] = Vec3{};
     contacts.last_damping_force[c] = contacts.last_friction_force[c] = Vec3{};
     if constexpr (Friction::kHasCouple) contacts.last_friction_couple[c] = Vec3{};
@@ -161,22 +171,22 @@ template <class Damping, class Friction>
 TALUS_HD TALUS_ONE_COPY ContactForces contact_forces(const ContactView& contacts, int c, ElasticContact& elastic,
                                                      const ContactSide& a, const ContactSide& b,
                                                      const PairProperties& pair, const Friction& friction,
-                                                     const typename Friction::Patch& patch, Real time_step,
+                                                     const typename Friction::Patch& patch, const Step& step,
                                                      Real diameter) {
   const Vec3 slip = a.predicted_velocity_at(elastic.point) - b.predicted_velocity_at(elastic.point);
   const Vec3 mean_slip = a.mean_velocity_at(elastic.point) - b.mean_velocity_at(elastic.point);
   ContactForces forces;
   forces.effective_mass = 1 / (a.inverse_effective_mass(elastic.point, elastic.normal) +
                                b.inverse_effective_mass(elastic.point, elastic.normal));
-  const Real damping = Damping::apply(
+  forces.normal = Damping::apply(
       contacts, c, elastic,
       NormalImpact{pair, forces.effective_mass, dot(mean_slip, elastic.normal), dot(slip, elastic.normal),
-                   turning(elastic, a.mean_velocity - b.mean_velocity), time_step});
-  forces.damping = -damping * elastic.normal;
+                   turning(elastic, a.mean_velocity - b.mean_velocity), step});
+  forces.damping = -forces.normal.force * elastic.normal;
   if constexpr (Friction::kEnabled)
     forces.friction = friction_forces(
-        contacts, c, FrictionContact{elastic, pair, damping, forces.effective_mass, diameter, time_step}, a, b,
-        friction, patch);
+        contacts, c, FrictionContact{elastic, pair, forces.normal.force, forces.effective_mass, diameter, step.length},
+        a, b, friction, patch);
   return forces;
 }
 
@@ -211,13 +221,14 @@ TALUS_HD TALUS_ONE_COPY void write_contact(const ContactView& contacts, int c, c
 template <class Damping, class Friction, class Record>
 TALUS_HD void respond(const ContactView& contacts, int c, ElasticContact& elastic, const ContactSide& a,
                       const ContactSide& b, const PairProperties& pair, const Friction& friction,
-                      const typename Friction::Patch& patch, Real time_step, Real diameter) {
+                      const typename Friction::Patch& patch, const Step& step, Real diameter) {
   const ContactForces forces =
-      contact_forces<Damping>(contacts, c, elastic, a, b, pair, friction, patch, time_step, diameter);
+      contact_forces<Damping>(contacts, c, elastic, a, b, pair, friction, patch, step, diameter);
   if constexpr (Record::kEnabled) {
     const Vec3 torque_b = elastic_torque_on_b(elastic, a, b);
-    const StepWork work = step_work<Friction>(contacts, c, elastic, torque_b, forces, a, b, time_step);
+    const StepWork work = step_work<Friction>(contacts, c, elastic, torque_b, forces, a, b, step.length);
     record_work(contacts, c, work, forces.friction.energy, true, is_wall_kind(key_kind(contacts.key[c])));
+    if constexpr (Damping::kHasOrbit) record_orbit(contacts, c, forces.normal, elastic.energy);
     contacts.last_elastic_force[c] = elastic.force;
     contacts.last_elastic_torque_a[c] = elastic.torque_a;
     contacts.last_elastic_torque_b[c] = torque_b;
@@ -225,7 +236,7 @@ TALUS_HD void respond(const ContactView& contacts, int c, ElasticContact& elasti
     contacts.last_friction_force[c] = forces.friction.force;
     if constexpr (Friction::kHasCouple) contacts.last_friction_couple[c] = forces.friction.couple;
   }
-  write_contact<Friction>(contacts, c, elastic, forces, a, b, time_step, diameter);
+  write_contact<Friction>(contacts, c, elastic, forces, a, b, step.length, diameter);
 }
 
 }  // namespace dem_gpu

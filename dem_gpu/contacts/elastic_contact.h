@@ -15,6 +15,7 @@ struct ElasticContact {
   Real adhesion = 0;   // constant attraction included in `force` [N]
   Real curvature = 0;  // of the normal's turn as the centres slide past each other: 1 / their distance [1/m]
   Real depth = 0;      // largest depth [m]
+  Real energy = 0;     // stored, of sphere laws [J]
 };
 
 /// Normal against the force on a; false if the force is zero.

@@ -93,6 +93,7 @@ struct SphereMeshGeometry {
       if (!sphere_contact(law, centre, radius, gap, pair, single[i], patch)) continue;
       const Real magnitude = share[i] * (single[i].adhesion - dot(single[i].force, single[i].normal));
       elastic.force += share[i] * single[i].force;
+      elastic.energy += share[i] * single[i].energy;
       elastic.point += magnitude * (single[i].point - centre);
       elastic.depth = std::max(elastic.depth, single[i].depth);
       pressed += magnitude * single[i].normal;

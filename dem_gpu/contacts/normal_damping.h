@@ -12,13 +12,24 @@
 namespace dem_gpu {
 
 // A damping policy completes the elastic normal force so that the restitution asked for comes out:
-//   apply(contacts, c, elastic, impact)   damping force, positive when repulsive [N]; may refine the elastic force
+//   apply(contacts, c, elastic, impact)   NormalDamping; may refine the elastic force
 //   forget(contacts, c)                   ends its history
+
+struct NormalDamping {
+  Real force = 0;         // beside the elastic force, positive when repulsive [N]
+  bool is_orbit = false;  // the elastic force has the dashpot's in it: over a whole step the two are one mean force
+  Real loss = 0;          // then: to the dashpot, until the end of the step to come [J]
+};
 
 /// Depth of a contact that has just begun over the way of approach in a step, at most. Above 1 by the turn of the
 /// normal during a step: bodies that touch deeper than they came were placed so. In single precision a first touch
 /// within rounding goes unseen for a step.
 inline constexpr Real kTouchMargin = local_tolerance(Real(1.1), Real(2));
+
+struct Step {
+  Real length;    // [s]; 0: the forces of a start, before any step
+  bool is_first;  // after a start: contacts have given the half kick of its beginning only
+};
 
 /// What a damping policy sees of a touching contact besides the elastic force.
 struct NormalImpact {
@@ -27,17 +38,19 @@ struct NormalImpact {
   Real mean_speed;       // of approach over the step that ends now [m/s]
   Real predicted_speed;  // of approach at its end, the forces of its beginning taken as constant [m/s]
   Real turning;          // acceleration of approach as the normal turns under sliding centres [m/s2]
-  Real time_step;        // [s]
+  Step step;             // that ends now
 };
 
 /// Dashpot beside the elastic force of Verlet, by the implicit midpoint rule over the step that the next full kick
 /// spans. Its window begins at touch, where the force of flat faces jumps: restitution does not depend on where in a
 /// step they touch. The whole normal force never pulls.
 struct PointDamping {
-  TALUS_HD static Real apply(const ContactView& contacts, int c, const ElasticContact& elastic,
-                             const NormalImpact& impact) {
-    const Real mass = impact.effective_mass, step = impact.time_step;
-    if (!(step > 0)) return 0;  // forces of a start, before any step
+  static constexpr bool kHasOrbit = false;
+
+  TALUS_HD static NormalDamping apply(const ContactView& contacts, int c, const ElasticContact& elastic,
+                                      const NormalImpact& impact) {
+    const Real mass = impact.effective_mass, step = impact.step.length;
+    if (!(step > 0)) return {};  // forces of a start, before any step
     const Real force = norm(elastic.force);
     const Real rate =
         dashpot(impact.pair.damping_ratio, mass, damped_stiffness(elastic.stiffness, force / elastic.depth)) / mass;
@@ -45,14 +58,14 @@ struct PointDamping {
     const Real contact_before = -dot(contacts.force[c], elastic.normal) / mass;
     const Real by_others = 2 * (impact.predicted_speed - impact.mean_speed) / step + contact_before;
     const Real speed = (impact.mean_speed + window / 2 * (by_others - force / mass)) / (1 + rate * window / 2);
-    return std::max(mass * rate * speed * (window / step), -force);
+    return {std::max(mass * rate * speed * (window / step), -force)};
   }
   TALUS_HD static void forget(const ContactView&, int) {}
 
  private:
   /// From touch to half a step after the end of the step in which it fell [s].
   TALUS_HD static Real step_of_touch(Real depth, const NormalImpact& impact) {
-    const Real step = impact.time_step;
+    const Real step = impact.step.length;
     return depth <= kTouchMargin * step * impact.mean_speed ? step / 2 + depth / impact.mean_speed : step;
   }
 };
@@ -62,24 +75,27 @@ struct PointDamping {
 /// pair to where its orbit ends.
 template <class Law>
 struct OrbitDamping {
-  TALUS_HD static Real apply(const ContactView& contacts, int c, ElasticContact& elastic, const NormalImpact& impact) {
-    const Real mass = impact.effective_mass, step = impact.time_step;
-    if (!(step > 0)) return 0;  // forces of a start, before any step: the elastic one alone
+  static constexpr bool kHasOrbit = true;
+
+  TALUS_HD static NormalDamping apply(const ContactView& contacts, int c, ElasticContact& elastic,
+                                      const NormalImpact& impact) {
+    const Real mass = impact.effective_mass, step = impact.step.length;
+    if (!(step > 0)) return {};  // forces of a start, before any step: the elastic one alone
     const Real force = -dot(elastic.force, elastic.normal);
     const Real rate = std::sqrt(elastic.stiffness / mass), damping = 2 * impact.pair.sphere_damping * rate;
     const NormalAcceleration law{elastic.depth, (force + elastic.adhesion) / mass, damping, elastic.adhesion / mass,
                                  Law::kExponent > 1};
-    const Real owed = contacts.owed_kick[c];
     const bool is_first = contacts.depth[c] == 0 && elastic.depth <= kTouchMargin * step * impact.mean_speed;
-    Real by_others = 0;
+    Real by_others = 0, owed = contacts.owed_kick[c];
     if (!is_first) {
       const Real contact_before = -dot(contacts.force[c], elastic.normal) / mass;
+      if (impact.step.is_first) owed = step / 2 * contact_before;
       by_others = 2 * (impact.predicted_speed - impact.mean_speed) / step + contact_before;
     }
     if (damping == 0 && elastic.adhesion == 0 && !law.is_hertz && rate * step < kFineStep) {
       const Real kick = elastic_kick(law, impact, is_first, by_others, contacts.owed_kick[c]);
       elastic.force = -mass * kick / step * elastic.normal;  // without a dashpot all of it is elastic
-      return 0;
+      return {};
     }
     NormalOrbit orbit{law, elastic.depth, impact.mean_speed + step / 2 * by_others - owed, by_others + impact.turning};
     Real duration = step;
@@ -87,10 +103,9 @@ struct OrbitDamping {
     orbit.advance(duration, substeps((rate + damping) * duration, is_first), is_first);
     const Real kick = orbit.has_parted ? orbit.kick : orbit.shift / step;
     contacts.owed_kick[c] = orbit.kick - kick;
-    const Real total = mass * (owed + kick) / step;
-    if (damping > 0) return total - force;
-    elastic.force = -total * elastic.normal;
-    return 0;
+    elastic.force = -mass * (owed + kick) / step * elastic.normal;
+    if (damping == 0) return {};
+    return {0, true, mass * orbit.dissipated(duration)};
   }
 
   TALUS_HD static void forget(const ContactView& contacts, int c) { contacts.owed_kick[c] = 0; }
@@ -103,7 +118,7 @@ struct OrbitDamping {
   /// `owed`: in, of the last step; out, of this one.
   TALUS_HD static Real elastic_kick(const NormalAcceleration& law, const NormalImpact& impact, bool is_first,
                                     Real by_others, Real& owed) {
-    const Real step = impact.time_step, depth = law.depth0, before = owed;
+    const Real step = impact.step.length, depth = law.depth0, before = owed;
     const Real others = by_others + impact.turning;
     owed = 0;
     if (is_first) {

@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+
 #include "dem_gpu/contacts/contact_passes.h"
 #include "dem_gpu/contacts/welded_surface.h"
 
 namespace dem_gpu {
 namespace {
 
-/// A sphere that crosses the seam of two welded walls takes along what its contact carries: springs, work, the state of
-/// its damping. Contact c takes them over from a contact of the same sphere that c's wall holds from now on. A contact
-/// has one holder at most, so no two threads touch the same one.
-struct CrossSeams {
-  ContactScene scene;
-  ContactFeatures features;
-  int contact_count;
+// A sphere that crosses the seam of two welded walls takes along what its contact carries: springs, work, the state of
+// its damping. Contact c takes them over from a contact of the same sphere that c's wall holds from now on. First each
+// contact finds the one it takes over, then all are taken over: no thread reads what another writes.
 
-  TALUS_HD void operator()(int c) const {
+struct FindCrossings {
+  ContactScene scene;
+  int contact_count, first;
+  int* left;  // the contact that contact first + i takes over, -1 for none
+
+  TALUS_HD void operator()(int c) const { left[c - first] = taken_over_by(c); }
+
+  TALUS_HD int taken_over_by(int c) const {
     const ContactView& contacts = scene.contacts;
-    if (contacts.depth[c] != 0) return;
+    if (contacts.depth[c] != 0) return -1;
     const int sphere = key_body_a(contacts.key[c]), wall = key_body_b(contacts.key[c]);
     const WallRecord& record = scene.walls[wall];
     for (int k = 0; k < record.weld_count; ++k) {
-      const int left = contact_with(sphere, scene.welds[record.first_weld + k]);
-      if (left < 0 || contacts.depth[left] == 0 || !takes_over(sphere, wall, key_body_b(contacts.key[left]))) continue;
-      visit_history(features, [&](auto column) {
-        auto& carried = (contacts.*column)[left];
-        (contacts.*column)[c] = carried;
-        carried = {};
-      });
-      return;
+      const int other = contact_with(sphere, scene.welds[record.first_weld + k]);
+      if (other >= 0 && contacts.depth[other] != 0 && takes_over(sphere, wall, key_body_b(contacts.key[other])))
+        return other;
     }
+    return -1;
   }
 
   TALUS_HD bool takes_over(int sphere, int wall, int from) const {
@@ -45,15 +46,41 @@ struct CrossSeams {
   }
 };
 
+/// A contact has one holder at most, and takes over only from contacts in touch, not in touch itself: no two threads
+/// touch the same one.
+struct TakeOver {
+  ContactView contacts;
+  ContactFeatures features;
+  int first;
+  const int* left;
+
+  TALUS_HD void operator()(int c) const {
+    const int from = left[c - first];
+    if (from < 0) return;
+    visit_history(features, [&](auto column) {
+      auto& carried = (contacts.*column)[from];
+      (contacts.*column)[c] = carried;
+      carried = {};
+    });
+  }
+};
+
 class SeamCrossingsPass : public Pass {
  public:
   std::string name() const override { return "seam_crossings"; }
   void run(const Model& model, State& state) override {
     const ContactRange walls = state.range[static_cast<int>(ContactKind::sphere_wall)];
     const ContactRange objects = state.range[static_cast<int>(ContactKind::sphere_object)];
-    parallel_for(walls.first, objects.last,
-                 CrossSeams{contact_scene(model, state), model.features, static_cast<int>(state.contacts.key.size())});
+    const int first = walls.first, last = objects.last;
+    left_.resize(static_cast<std::size_t>(std::max(last - first, 0)));
+    parallel_for(
+        first, last,
+        FindCrossings{contact_scene(model, state), static_cast<int>(state.contacts.key.size()), first, pointer(left_)});
+    parallel_for(first, last, TakeOver{view(state.contacts), model.features, first, pointer(left_)});
   }
+
+ private:
+  DeviceVector<int> left_;  // between the two kernels alone
 };
 
 }  // namespace

@@ -31,9 +31,11 @@ TALUS_HD bool sphere_contact(const Law& law, const Vec3& centre, Real radius, co
   elastic.depth = overlap;
   elastic.stiffness = law.tangent_stiffness(overlap, gap.effective_radius, pair.effective_modulus);
   Real force = law.normal_force(overlap, gap.effective_radius, pair.effective_modulus);
+  elastic.energy = force * overlap / (Law::kExponent + 1);
   if constexpr (Law::kIsAdhesive) {
     elastic.adhesion = Law::attraction(pair.adhesion, gap.effective_radius);
     force -= elastic.adhesion;
+    elastic.energy -= elastic.adhesion * overlap;
   }
   elastic.force = -force * gap.direction;
   elastic.point = centre + (gap.distance + overlap / 2) * gap.direction;

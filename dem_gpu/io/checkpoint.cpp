@@ -2,6 +2,7 @@
 #include "dem_gpu/io/checkpoint.h"
 
 #include <cstring>
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -15,7 +16,7 @@ namespace dem_gpu {
 namespace {
 
 constexpr const char* kKind = "talus-checkpoint";
-constexpr int kVersion = 5;
+constexpr int kVersion = 6;
 constexpr std::int64_t kLocalRealBytes = sizeof(LocalReal);
 
 /// A whole checkpoint that does not fit the simulation: no reason to look at an earlier one.
@@ -56,6 +57,7 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("contacts/turning_displacement", c.turning_displacement);
   visit("contacts/spring_normal", c.spring_normal);
   visit("contacts/elastic_work", c.elastic_work);
+  visit("contacts/orbit_loss", c.orbit_loss);
   visit("contacts/tangential_energy", c.tangential_energy);
   visit("contacts/loss_normal", c.loss_normal);
   visit("contacts/loss_shear", c.loss_shear);
@@ -198,7 +200,11 @@ void read_column(const io::Hdf5Reader& file, const std::string& name, T& column)
 }
 
 void read_one(const std::filesystem::path& path, const Model& model, State& state) {
-  const io::Hdf5Reader file(path, kKind, kVersion);
+  const io::Hdf5Reader file(path, kKind, std::numeric_limits<int>::max());
+  if (file.version() != kVersion)
+    throw ForeignCheckpoint(path.string() + ": is of checkpoint version " + std::to_string(file.version()) +
+                            ", this program resumes from version " + std::to_string(kVersion) +
+                            " alone; resume with the Talus that wrote it, or start the run again");
   if (const std::int64_t bytes = file.integer_attribute("local_real_bytes"); bytes != kLocalRealBytes)
     throw ForeignCheckpoint(path.string() + ": written in " + (bytes == sizeof(double) ? "double" : "mixed") +
                             " precision, this build computes in " + kPrecision +

@@ -2,8 +2,10 @@
 #include "dem_gpu/meshes/contact_surface.h"
 
 #include <cmath>
+#include <string>
 
 #include "catalog/input_error.h"
+#include "dem_gpu/meshes/mesh_shells.h"
 #include "dem_gpu/meshes/mesh_topology.h"
 
 namespace dem_gpu {
@@ -17,18 +19,30 @@ constexpr Real kLongestMitre = 4;
 /// Cosine between two faces at an edge below which they count as folded flat onto each other.
 constexpr Real kFolded = -0.9999;
 
-double enclosed_volume(const TriangleMesh& mesh) {
-  const Vec3 origin = face_corner(mesh, 0, 0);
-  double volume = 0;
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
-    volume += dot(face_corner(mesh, f, 0) - origin,
-                  cross(face_corner(mesh, f, 1) - origin, face_corner(mesh, f, 2) - origin)) /
-              6;
-  return volume;
+void turn_round(TriangleMesh& mesh, const MeshShell& shell) {
+  for (const std::size_t face : shell.faces) std::swap(mesh.faces[face][1], mesh.faces[face][2]);
 }
 
-void turn_round(TriangleMesh& mesh) {
-  for (catalog::Triangle& face : mesh.faces) std::swap(face[1], face[2]);
+/// Shells in turn bound the solid and a hole in it, from the outermost inwards; about a container all is solid.
+void orient_container(TriangleMesh& mesh, const std::vector<MeshShell>& shells) {
+  for (const MeshShell& shell : shells)
+    if ((shell.volume > 0) == (shell.shells_around % 2 == 0)) turn_round(mesh, shell);
+}
+
+void refuse_inverted(const std::vector<MeshShell>& shells) {
+  for (const MeshShell& shell : shells) {
+    const bool is_cavity = shell.shells_around % 2 == 1;
+    if (is_cavity ? shell.volume < 0 : shell.volume > 0) continue;
+    const std::string whose =
+        shells.size() == 1 ? "the mesh is inverted: its normals point"
+                           : "the shell of triangle " + std::to_string(shell.faces[0]) + " (" +
+                                 std::to_string(shell.faces.size()) + " of the mesh's triangles) is inverted: " +
+                                 (is_cavity ? "it lies in another one, and its normals point" : "its normals point");
+    if (is_cavity)
+      throw InputError(whose + " into that one's solid; turn its triangles round if it is a cavity, or remove it");
+    throw InputError(whose +
+                     " into the solid; turn its triangles round, or state bodies = \"inside\" if it is a container");
+  }
 }
 
 /// Solves the symmetric system m x = b by Cramer's rule.
@@ -119,14 +133,14 @@ TriangleMesh contact_surface(const MeshObject& object) {
     throw InputError(
         "the mesh is open, so it encloses no solid; give the sheet a thickness (solid behind its triangles), or close "
         "it");
-  } else if (object.is_container) {
-    if (enclosed_volume(surface) > 0) turn_round(surface);
-  } else if (!(enclosed_volume(surface) > 0)) {
-    throw InputError(
-        "the mesh is inverted: its normals point into the solid; turn its triangles round, or state bodies = "
-        "\"inside\" if it is a container");
   }
   refuse_self_intersection(surface);
+  if (object.thickness) return surface;
+  const std::vector<MeshShell> shells = mesh_shells(surface, neighbours);
+  if (object.is_container)
+    orient_container(surface, shells);
+  else
+    refuse_inverted(shells);
   return surface;
 }
 

@@ -74,6 +74,17 @@ TALUS_HD bool visit_surface_inside(const PartView& surface, int face_count, cons
   return true;
 }
 
+/// What of a solid's depth field matters to another body's surface inside it: of a field that fits in the hull of all
+/// that body's vertices, of a larger one near the surface's pieces, which `visit` visits.
+template <class Visit>
+TALUS_HD DepthField near_field(const DepthField& field, const PartVertices& vertices, const LocalBall& ball,
+                               const Visit& visit, NearPlanes& near) {
+  if (field.plane_count <= NearPlanes::kMost) return near_hull(field, vertices, ball, near);
+  PieceBounds bounds;
+  visit([&](const Polygon& piece, int /*face*/) { bounds.add(piece); });
+  return bounds.is_empty() ? field : near_ball(field, bounds.ball(), near);
+}
+
 enum class OverlapStatus : std::uint8_t { separated, overlapping, polygon_truncated };
 
 /// Sums `Integrals` over the overlap of part a of one body and part b of another. `b_to_a` and `a_to_b` are inverse
@@ -107,31 +118,28 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
     return OverlapStatus::separated;
   }
 
-  PartView solid_a = a, solid_b = b;
-  NearDepth near_a, near_b;
-  if constexpr (Integrals::kNeedsDepthPlanes) {
-    find_near_depth(a.depth, vertices_b, rounded(b_to_a.point(b.range.centre)), rounded(b_to_a.scale * b.range.radius),
-                    near_a);
-    find_near_depth(b.depth, vertices_a, rounded(a_to_b.point(a.range.centre)), rounded(a_to_b.scale * a.range.radius),
-                    near_b);
-    if (near_a.is_truncated || near_b.is_truncated) return OverlapStatus::polygon_truncated;
-    solid_a.depth.planes = near_a.plane.data();
-    solid_a.depth.plane_count = near_a.plane_count;
-    solid_a.depth.term_count = near_a.term_count;
-    solid_b.depth.planes = near_b.plane.data();
-    solid_b.depth.plane_count = near_b.plane_count;
-    solid_b.depth.term_count = near_b.term_count;
-  }
   const int faces_b = Integrals::kNeedsInnerFaces ? b.range.face_count : b.range.outer_face_count;
   const int faces_a = Integrals::kNeedsInnerFaces ? a.range.face_count : a.range.outer_face_count;
-  const bool b_whole = visit_surface_inside(
-      b, faces_b, a, vertices_b, sides_b, {sides_b, tolerance_a, true}, [&](Polygon& polygon, int face) {
-        integrals.add_surface_b(polygon, b.planes[face], face < b.range.outer_face_count, solid_a, b_to_a);
-      });
-  const bool a_whole = visit_surface_inside(
-      a, faces_a, b, vertices_a, sides_a, {sides_a, tolerance_b, false}, [&](Polygon& polygon, int face) {
-        integrals.add_surface_a(polygon, a.planes[face], face < a.range.outer_face_count, solid_b, b_to_a);
-      });
+  const auto visit_b = [&](auto&& visitor) {
+    return visit_surface_inside(b, faces_b, a, vertices_b, sides_b, {sides_b, tolerance_a, true}, visitor);
+  };
+  const auto visit_a = [&](auto&& visitor) {
+    return visit_surface_inside(a, faces_a, b, vertices_a, sides_a, {sides_a, tolerance_b, false}, visitor);
+  };
+  PartView solid_a = a, solid_b = b;
+  NearPlanes near_a, near_b;
+  if constexpr (Integrals::kNeedsDepthPlanes) {
+    const LocalBall ball_b{rounded(b_to_a.point(b.range.centre)), rounded(b_to_a.scale * b.range.radius)};
+    const LocalBall ball_a{rounded(a_to_b.point(a.range.centre)), rounded(a_to_b.scale * a.range.radius)};
+    solid_a.depth = near_field(a.depth, vertices_b, ball_b, visit_b, near_a);
+    solid_b.depth = near_field(b.depth, vertices_a, ball_a, visit_a, near_b);
+  }
+  const bool b_whole = visit_b([&](Polygon& polygon, int face) {
+    integrals.add_surface_b(polygon, b.planes[face], face < b.range.outer_face_count, solid_a, b_to_a);
+  });
+  const bool a_whole = visit_a([&](Polygon& polygon, int face) {
+    integrals.add_surface_a(polygon, a.planes[face], face < a.range.outer_face_count, solid_b, b_to_a);
+  });
   if constexpr (Integrals::kNeedsDepthPlanes)
     if (integrals.is_truncated) return OverlapStatus::polygon_truncated;
   return a_whole && b_whole ? OverlapStatus::overlapping : OverlapStatus::polygon_truncated;

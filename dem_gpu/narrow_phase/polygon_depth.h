@@ -102,8 +102,8 @@ struct ShrinkingPolygon {
 
 /// Planes that a depth field may have near one polygon, those of terms that are one plane there among them; and terms
 /// that are not, with their planes.
-inline constexpr int kMostPlanesOnPolygon = NearDepth::kMostPlanes + 64;
 inline constexpr int kMostTermsOnPolygon = 48, kMostTermPlanesOnPolygon = 160;
+inline constexpr int kMostPlanesOnPolygon = NearPlanes::kMost + kMostTermsOnPolygon;
 
 /// Where the depth below `low` is at most that below `high`.
 TALUS_HD inline LocalHalfSpace lower_side(const LocalHalfSpace& low, const LocalHalfSpace& high) {
@@ -166,17 +166,20 @@ struct FieldOnPolygon {
   ScratchArray<DepthTerm, kMostTermsOnPolygon> term;
   int term_count = 0;
   ScratchArray<LocalHalfSpace, kMostTermPlanesOnPolygon> term_plane;
-  bool is_truncated = false;
+  bool is_truncated = false;  // the polygon is too large for the field: it has more parts than fit
 
   TALUS_HD FieldOnPolygon(const Polygon& polygon, const DepthField& field) {
-    const Ball ball = ball_about(polygon);
+    const LocalBall ball = ball_about(polygon);
     const LocalReal limit = greatest_possible(ball, field);
-    for (int i = 0; i < field.plane_count; ++i)
-      if (depth_below(field.planes[i], ball.centre) - ball.radius <= limit) plane[plane_count++] = field.planes[i];
+    for (int i = 0; i < field.plane_count && !is_truncated; ++i) {
+      if (depth_below(field.planes[i], ball.centre) - ball.radius > limit) continue;
+      is_truncated = plane_count == NearPlanes::kMost;
+      if (!is_truncated) plane[plane_count++] = field.planes[i];
+    }
     int used = 0;
     for (int t = 0; t < field.term_count && !is_truncated; ++t) {
       const int count = field.terms[t].count;
-      if (!is_within(field, t, ball.centre, ball.radius, limit)) continue;
+      if (!is_within(field, t, ball, limit)) continue;
       is_truncated = plane_count + term_count + 1 > kMostPlanesOnPolygon || term_count == kMostTermsOnPolygon ||
                      used + count > kMostTermPlanesOnPolygon;
       if (!is_truncated) used += add_term(polygon, field.term_planes + field.terms[t].first, count, used);
@@ -184,31 +187,13 @@ struct FieldOnPolygon {
   }
 
  private:
-  struct Ball {
-    LocalVec3 centre;
-    LocalReal radius;
-  };
-  TALUS_HD static Ball ball_about(const Polygon& polygon) {
+  TALUS_HD static LocalBall ball_about(const Polygon& polygon) {
     LocalVec3 sum;
     for (int c = 0; c < polygon.count; ++c) sum += polygon.corner[c];
     const LocalVec3 centre = sum / static_cast<LocalReal>(polygon.count);
     LocalReal square = 0;
     for (int c = 0; c < polygon.count; ++c) square = std::max(square, norm_squared(polygon.corner[c] - centre));
     return {centre, std::sqrt(square)};
-  }
-
-  /// Deeper than this the field is nowhere in the ball: every depth changes by at most the distance.
-  TALUS_HD static LocalReal greatest_possible(const Ball& ball, const DepthField& field) {
-    LocalReal limit = std::numeric_limits<LocalReal>::max();
-    for (int i = 0; i < field.plane_count; ++i) limit = std::min(limit, depth_below(field.planes[i], ball.centre));
-    for (int t = 0; t < field.term_count; ++t) {
-      const LocalHalfSpace* planes = field.term_planes + field.terms[t].first;
-      LocalReal depth = depth_below(planes[0], ball.centre);
-      for (int i = 1; i < field.terms[t].count && depth < limit; ++i)
-        depth = std::max(depth, depth_below(planes[i], ball.centre));
-      limit = std::min(limit, depth);
-    }
-    return limit + ball.radius;
   }
 
   /// True if plane k is nowhere on the polygon the greatest of the term; of equal ones the lowest index stays.
@@ -240,21 +225,11 @@ struct FieldOnPolygon {
   }
 };
 
-/// Integrates a depth field over a polygon. Where terms change over between their planes the polygon is cut into the
-/// convex pieces on which each term is one plane: every choice of one plane a term is tried, dropping all choices that
-/// begin with one whose piece is empty.
-template <class Sum, class Profile>
-TALUS_HD Sum integrate_depth(const Polygon& polygon, const DepthField& field, const LocalVec3& normal,
-                             const Profile& profile) {
-  Sum sum;
-  sum.profile = profile;
-  sum.origin = MomentOrigin::at(polygon.corner[0]);
-  if (field.term_count == 0) {
-    add_least_depth(polygon, field.planes, field.plane_count, normal, sum);
-    return sum;
-  }
-  FieldOnPolygon here(polygon, field);
-  sum.is_truncated = here.is_truncated;
+/// Adds a depth field over a polygon. Where terms change over between their planes the polygon is cut into the convex
+/// pieces on which each term is one plane: every choice of one plane a term is tried, dropping all choices that begin
+/// with one whose piece is empty.
+template <class Sum>
+TALUS_HD void add_depth(const Polygon& polygon, FieldOnPolygon& here, const LocalVec3& normal, Sum& sum) {
   ScratchArray<std::uint8_t, kMostTermsOnPolygon> choice;
   for (int t = 0; t < here.term_count; ++t) choice[t] = 0;
   Polygon buffer[2];
@@ -275,8 +250,85 @@ TALUS_HD Sum integrate_depth(const Polygon& polygon, const DepthField& field, co
       level = here.term_count - 1;
     }
     while (level >= 0 && ++choice[level] == here.term[level].count) choice[level--] = 0;
-    if (level < 0) return sum;
+    if (level < 0) return;
   }
+}
+
+/// A square grid over a polygon.
+class PolygonGrid {
+ public:
+  TALUS_HD PolygonGrid(const Polygon& polygon, const LocalVec3& normal, int across)
+      : across_(across), axis_{unit_or(polygon.corner[1] - polygon.corner[0], {1, 0, 0}), {}} {
+    axis_[1] = cross(normal, axis_[0]);
+    for (int k = 0; k < 2; ++k) {
+      low_[k] = high_[k] = dot(axis_[k], polygon.corner[0]);
+      for (int c = 1; c < polygon.count; ++c) {
+        low_[k] = std::min(low_[k], dot(axis_[k], polygon.corner[c]));
+        high_[k] = std::max(high_[k], dot(axis_[k], polygon.corner[c]));
+      }
+    }
+  }
+
+  /// The part of the polygon in cell (i, j), null if none. Cells share the lines between them, bit for bit.
+  TALUS_HD const Polygon* cell(const Polygon& polygon, int i, int j, Polygon* buffer) const {
+    const int index[2] = {i, j};
+    ShrinkingPolygon shrinking{&polygon, buffer};
+    for (int k = 0; k < 2 && shrinking.piece; ++k) {
+      if (index[k] > 0) shrinking.keep({-axis_[k], -line(k, index[k])}, false);
+      if (index[k] < across_ - 1 && shrinking.piece) shrinking.keep({axis_[k], line(k, index[k] + 1)}, true);
+    }
+    return shrinking.piece;
+  }
+
+ private:
+  TALUS_HD LocalReal line(int k, int at) const { return low_[k] + at * ((high_[k] - low_[k]) / across_); }
+
+  int across_;
+  LocalVec3 axis_[2];
+  LocalReal low_[2], high_[2];
+};
+
+/// Adds a field over a polygon too large for it, cell by cell; false if it does not fit a cell.
+template <class Sum>
+TALUS_HD bool add_depth_by_cells(const Polygon& polygon, const DepthField& field, const LocalVec3& normal, int across,
+                                 Sum& sum) {
+  const PolygonGrid grid(polygon, normal, across);
+  Polygon buffer[2];
+  for (int i = 0; i < across; ++i)
+    for (int j = 0; j < across; ++j) {
+      const Polygon* piece = grid.cell(polygon, i, j, buffer);
+      if (!piece) continue;
+      FieldOnPolygon here(*piece, field);
+      if (here.is_truncated) return false;
+      add_depth(*piece, here, normal, sum);
+    }
+  return true;
+}
+
+/// Integrates a depth field over a polygon.
+template <class Sum, class Profile>
+TALUS_HD Sum integrate_depth(const Polygon& polygon, const DepthField& field, const LocalVec3& normal,
+                             const Profile& profile) {
+  Sum empty;
+  empty.profile = profile;
+  empty.origin = MomentOrigin::at(polygon.corner[0]);
+  Sum sum = empty;
+  if (field.term_count == 0 && field.plane_count <= NearPlanes::kMost) {
+    add_least_depth(polygon, field.planes, field.plane_count, normal, sum);
+    return sum;
+  }
+  FieldOnPolygon here(polygon, field);
+  if (!here.is_truncated) {
+    add_depth(polygon, here, normal, sum);
+    return sum;
+  }
+  constexpr int kMostAcross = 32;
+  for (int across = 2; across <= kMostAcross; across *= 2) {
+    if (add_depth_by_cells(polygon, field, normal, across, sum)) return sum;
+    sum = empty;
+  }
+  sum.is_truncated = true;
+  return sum;
 }
 
 }  // namespace dem_gpu

@@ -34,8 +34,19 @@ struct PlaneSides {
   int coplanar_count;
 };
 
-/// Sorts the vertices (in the solid's frame) by the solid's planes, after Cohen and Sutherland's outcodes. A vertex
-/// within `tolerance` [m] of a plane counts as inside. Returns a face whose plane has all vertices in front, or -1.
+/// Bit v for a vertex higher than `height` over the plane.
+TALUS_HD inline std::uint64_t vertices_above(const LocalHalfSpace& plane, const PartVertices& vertices,
+                                             LocalReal height) {
+  LaneBits above{};
+  for (int first = 0; first < vertices.padded_count; first += kLanes)
+    above |= bits_above(vertices.height_over(plane, first), height, first);
+  return join(above);
+}
+
+/// Sorts the vertices (in the solid's frame) by the solid's planes, after Cohen and Sutherland's outcodes. Where three
+/// vertices and more lie within `tolerance` [m] of a plane, a face may lie flush in it and they all count as inside;
+/// one or two count as they lie, since the plane of a face that is nearly flush would be cut up to tolerance / angle
+/// away. Returns a face whose plane has all vertices in front, or -1.
 TALUS_HD inline int classify(const PartView& solid, const PartVertices& vertices, LocalReal tolerance,
                              PlaneSides& sides) {
   const std::uint64_t all = ~std::uint64_t{0} >> (64 - vertices.count);
@@ -49,7 +60,12 @@ TALUS_HD inline int classify(const PartView& solid, const PartVertices& vertices
       in_front_lanes |= bits_above(height, tolerance, first);
       touching_lanes |= bits_above(height, -tolerance, first);
     }
-    const std::uint64_t in_front = join(in_front_lanes) & all, touching = join(touching_lanes) & all & ~in_front;
+    std::uint64_t in_front = join(in_front_lanes) & all;
+    const std::uint64_t touching = join(touching_lanes) & all & ~in_front;
+    // Three bits and more: clearing the lowest two leaves some.
+    const std::uint64_t without_lowest = touching & (touching - 1);
+    const bool is_coplanar = (without_lowest & (without_lowest - 1)) != 0;
+    if (touching != 0 && !is_coplanar) in_front |= vertices_above(plane, vertices, 0) & all;
     if (in_front == all) return f;
     if (in_front != 0) {
       const int count = count_bits(in_front);
@@ -58,10 +74,7 @@ TALUS_HD inline int classify(const PartView& solid, const PartVertices& vertices
       if (count > most_in_front) most_in_front = count, best = sides.plane_count;
       ++sides.plane_count;
     }
-    // Three bits and more: clearing the lowest two leaves some.
-    const std::uint64_t without_lowest = touching & (touching - 1);
-    if ((without_lowest & (without_lowest - 1)) != 0)
-      sides.coplanar[sides.coplanar_count++] = static_cast<std::uint8_t>(f);
+    if (is_coplanar) sides.coplanar[sides.coplanar_count++] = static_cast<std::uint8_t>(f);
   }
   // The plane with most vertices in front comes first: it settles most faces at once.
   if (sides.plane_count > 1) {

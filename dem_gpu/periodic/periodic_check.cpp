@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "catalog/input_error.h"
+#include "dem_gpu/periodic/wall_extent.h"
 
 namespace dem_gpu {
 namespace {
@@ -20,12 +21,16 @@ constexpr Real kReachShare = 1.2;
 constexpr Real kNormalRounding = 1e-9;
 constexpr std::array<const char*, 3> kAxisName{"x", "y", "z"};
 
-Real along(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 std::string metres(Real length) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g m", double(length));
   return text;
+}
+
+std::string seconds(Real time) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.6g s", double(time));
+  return std::isfinite(time) ? text : "no end of the run";
 }
 
 std::string range_text(Real low, Real high) { return metres(low) + " .. " + metres(high); }
@@ -46,43 +51,7 @@ struct Side {
 
   Real width() const { return span.high - span.low; }
   std::string name() const { return kAxisName[static_cast<std::size_t>(axis)]; }
-};
-
-/// Where a wall's surface begins and ends along an axis.
-struct WallExtent {
-  int axis;
-  Real low = std::numeric_limits<Real>::max(), high = std::numeric_limits<Real>::lowest();
-
-  void operator()(const Plane&) {}  // endless
-  void operator()(const Disc& disc) {
-    add_rim(disc.centre, disc.normal, disc.radius);
-    add_rim(disc.centre - disc.thickness.value_or(0) * disc.normal, disc.normal, disc.radius);
-  }
-  void operator()(const Cylinder& cylinder) {
-    add_rim(cylinder.base, cylinder.axis, cylinder.radius);
-    add_rim(cylinder.base + cylinder.length * cylinder.axis, cylinder.axis, cylinder.radius);
-  }
-  void operator()(const Cone& cone) {
-    add_rim(cone.base, cone.axis, cone.base_radius);
-    add_rim(cone.base + cone.length * cone.axis, cone.axis, cone.top_radius);
-  }
-  void operator()(const Ball& ball) { add(ball.centre, ball.radius); }
-  void operator()(const VolumeObject& object) { add_all(object.part.vertices); }
-  void operator()(const MeshObject& object) { add_all(object.mesh.vertices); }
-
- private:
-  void add(const Vec3& centre, Real reach) {
-    low = std::min(low, along(centre, axis) - reach);
-    high = std::max(high, along(centre, axis) + reach);
-  }
-  void add_rim(const Vec3& centre, const Vec3& normal, Real radius) {
-    const Real n = along(normal, axis);
-    add(centre, radius * std::sqrt(std::max(1 - n * n, Real(0))));
-  }
-  template <class Points>
-  void add_all(const Points& points) {
-    for (const auto& p : points) add({p[0], p[1], p[2]}, 0);
-  }
+  std::string text() const { return range_text(span.low, span.high); }
 };
 
 void check_span(const Side& side) {
@@ -114,7 +83,7 @@ void check_width(const Scene& scene, const Side& side) {
 
 void check_bodies_inside(const Scene& scene, const Side& side) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const Real x = along(scene.bodies[i].position, side.axis);
+    const Real x = component(scene.bodies[i].position, side.axis);
     if (x < side.span.low || x >= side.span.high)
       throw catalog::InputError("body " + std::to_string(i) + ": its centre is at " + side.name() + " = " + metres(x) +
                                 ", outside the periodic box (" + range_text(side.span.low, side.span.high) +
@@ -125,7 +94,7 @@ void check_bodies_inside(const Scene& scene, const Side& side) {
 /// A wall that goes past the faces must move alike at both: turn about the periodic axis, if at all.
 void check_turning(const Wall& wall, const Side& side) {
   for (const Vec3& turn : {wall.motion.angular_velocity, wall.motion.angular_amplitude}) {
-    const Real about_axis = along(turn, side.axis), square = norm_squared(turn);
+    const Real about_axis = component(turn, side.axis), square = norm_squared(turn);
     if (square - about_axis * about_axis > kNormalRounding * square)
       throw catalog::InputError(
           "wall '" + wall.name + "': it turns about another axis than " + side.name() +
@@ -135,29 +104,45 @@ void check_turning(const Wall& wall, const Side& side) {
   }
 }
 
-void check_wall(const Wall& wall, const Side& side, Real reach) {
-  const std::string place = "wall '" + wall.name + "': ", box = range_text(side.span.low, side.span.high);
-  if (const auto* plane = std::get_if<Plane>(&wall.geometry)) {
-    if (std::abs(along(plane->normal, side.axis)) > kNormalRounding)
-      throw catalog::InputError(place + "its normal leans towards " + side.name() + ", along which the box (" + box +
-                                ") is periodic, so that bodies would jump into the wall as they cross a face; turn it "
-                                "square to " +
-                                side.name() + " (tilt gravity instead), or make the box not periodic along it");
-    check_turning(wall, side);
-    return;
-  }
-  WallExtent extent{side.axis};
-  std::visit([&](const auto& geometry) { extent(geometry); }, wall.geometry);
-  const std::string where = "it spans " + range_text(extent.low, extent.high) + " along " + side.name();
-  if (extent.high <= side.span.low || extent.low >= side.span.high)
-    throw catalog::InputError(place + where + ", outside the periodic box (" + box + "); move it in");
-  const bool goes_past = extent.low <= side.span.low - reach && extent.high >= side.span.high + reach;
-  const bool keeps_clear = extent.low >= side.span.low + reach && extent.high <= side.span.high - reach;
-  if (!goes_past && !keeps_clear)
-    throw catalog::InputError(place + where + ", and walls do not repeat themselves with the periodic box (" + box +
-                              "): bodies at a face would meet it on one side alone; let it go past both faces by " +
-                              metres(reach) + ", or keep it as far away from them inside");
-  if (goes_past) check_turning(wall, side);
+/// When a wall's motion ends to matter: with the run, or as it is removed.
+Real last_time(const Scene& scene, const Wall& wall) {
+  const Real end = scene.run.end_time > 0 ? scene.run.end_time : std::numeric_limits<Real>::infinity();
+  return std::min(end, wall.removed_at.value_or(end));
+}
+
+void check_plane(const Wall& wall, const Plane& plane, const Side& side) {
+  if (std::abs(component(plane.normal, side.axis)) > kNormalRounding)
+    throw catalog::InputError("wall '" + wall.name + "': its normal leans towards " + side.name() +
+                              ", along which the box (" + side.text() +
+                              ") is periodic, so that bodies would jump into the wall as they cross a face; turn it "
+                              "square to " +
+                              side.name() + " (tilt gravity instead), or make the box not periodic along it");
+  check_turning(wall, side);
+}
+
+/// `reach`: of a body beyond a face [m]; `until`: last time of the wall [s].
+void check_wall(const Wall& wall, const Side& side, Real reach, Real until) {
+  if (const auto* plane = std::get_if<Plane>(&wall.geometry)) return check_plane(wall, *plane, side);
+  const std::string place = "wall '" + wall.name + "': ";
+  const Extent start = extent_at_start(wall, side.axis), swept = swept_extent(wall, side.axis, until);
+  const Extent shift = shift_range(wall.motion, side.axis, until);
+  if (start.high <= side.span.low || start.low >= side.span.high)
+    throw catalog::InputError(place + "it spans " + range_text(start.low, start.high) + " along " + side.name() +
+                              ", outside the periodic box (" + side.text() + "); move it in");
+  const Real low = side.span.low, high = side.span.high;
+  const auto goes_past = [&](const Extent& e) { return e.low <= low - reach && e.high >= high + reach; };
+  const auto keeps_clear = [&](const Extent& e) { return e.low >= low + reach && e.high <= high - reach; };
+  // Past both faces wherever it is shifted to: then it may turn about the axis alone, which leaves its ends there.
+  if (goes_past({start.low + shift.high, start.high + shift.low})) return check_turning(wall, side);
+  if (keeps_clear(swept)) return;
+  const bool by_motion = goes_past(start) || keeps_clear(start);
+  throw catalog::InputError(
+      place + (by_motion ? "by its motion up to " + seconds(until) + " it gets to " : std::string("it spans ")) +
+      (by_motion ? range_text(swept.low, swept.high) : range_text(start.low, start.high)) + " along " + side.name() +
+      ", and walls do not repeat themselves with the periodic box (" + side.text() +
+      "): bodies at a face would meet it on one side alone; let it go past both faces by " + metres(reach) +
+      ", or keep it as far away from them inside" +
+      (by_motion ? ", all the time: with less motion, a shorter run or an earlier removal" : ""));
 }
 
 }  // namespace
@@ -176,8 +161,8 @@ void check_periodic(const Scene& scene) {
     check_span(side);
     check_width(scene, side);
     check_bodies_inside(scene, side);
-    for (const Wall& wall : scene.walls) check_wall(wall, side, reach);
-    if (scene.outflow && std::abs(along(scene.outflow->direction, axis)) > kNormalRounding)
+    for (const Wall& wall : scene.walls) check_wall(wall, side, reach, last_time(scene, wall));
+    if (scene.outflow && std::abs(component(scene.outflow->direction, axis)) > kNormalRounding)
       throw catalog::InputError(
           "outflow: its direction leans towards " + side.name() +
           ", along which the box is periodic: what leaves there comes back in; turn it square to " + side.name());

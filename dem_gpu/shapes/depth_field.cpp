@@ -38,6 +38,15 @@ HalfSpace raised(HalfSpace plane, Real by) {
 
 HalfSpace constant_depth(Real depth) { return {Vec3{}, depth}; }
 
+/// A term of the field that a part is compared with.
+struct FieldTerm {
+  Real floor;         // no point of the part is less deep below it
+  std::size_t order;  // of terms equally deep the first counts
+  std::vector<HalfSpace> planes;
+};
+/// By floor, ascending: the terms that are least at a point come early.
+using Field = std::vector<FieldTerm>;
+
 /// Writes the body's field for one part.
 class PartWriter {
  public:
@@ -46,8 +55,9 @@ class PartWriter {
 
   PartDepthField write(std::vector<const SurfaceTerm*> ordered) {
     std::erase_if(ordered, [&](const SurfaceTerm* term) { return lower_bound(term->planes) >= cap_; });
-    std::vector<const GreatestDepth*> field;
-    for (const SurfaceTerm* term : ordered) field.push_back(&term->planes);
+    std::vector<const GreatestDepth*> in_order;
+    for (const SurfaceTerm* term : ordered) in_order.push_back(&term->planes);
+    const Field field = by_floor(in_order);
     std::vector<GreatestDepth> terms;
     for (const SurfaceTerm* term : ordered) add_new(terms, reduced(*term, field));
     drop_dominated(terms);
@@ -73,6 +83,32 @@ class PartWriter {
     return bound;
   }
 
+  Field by_floor(const std::vector<const GreatestDepth*>& terms) const {
+    Field field;
+    for (const GreatestDepth* term : terms) field.push_back({lower_bound(*term), field.size(), *term});
+    std::stable_sort(field.begin(), field.end(),
+                     [](const FieldTerm& a, const FieldTerm& b) { return a.floor < b.floor; });
+    return field;
+  }
+
+  /// The term that is least at a point of the part. Whichever `guess` is tried first, it is the same.
+  const FieldTerm* least_at(const Vec3& point, const Field& field, const FieldTerm* guess) const {
+    const FieldTerm* least = guess;
+    Real least_depth = guess ? greatest_depth(guess->planes, point) : std::numeric_limits<Real>::max();
+    for (const FieldTerm& term : field) {
+      // Floors are taken at the corners, rounded otherwise than the depth at the point.
+      if (least && term.floor > least_depth + kFieldTolerance * size_) break;
+      Real depth = -std::numeric_limits<Real>::max();
+      for (const HalfSpace& plane : term.planes) {
+        depth = std::max(depth, depth_below(plane, point));
+        if (depth > least_depth) break;
+      }
+      if (depth < least_depth || (depth == least_depth && term.order < least->order))
+        least_depth = depth, least = &term;
+    }
+    return least;
+  }
+
   /// depth below a >= depth below b all over the part.
   bool is_deeper(const HalfSpace& a, const HalfSpace& b) const {
     return std::all_of(corners_.begin(), corners_.end(), [&](const Vec3& corner) {
@@ -94,24 +130,19 @@ class PartWriter {
 
   /// True if in `region` the field is nowhere above the depth below `level`: cell by cell, each time taking away what
   /// the term that is least at a point inside accounts for.
-  bool is_nowhere_above(const ConvexCell& region, const HalfSpace& level,
-                        const std::vector<const GreatestDepth*>& field) const {
+  bool is_nowhere_above(const ConvexCell& region, const HalfSpace& level, const Field& field) const {
     const HalfSpace limit = raised(level, kFieldTolerance * size_);
     std::vector<ConvexCell> cells;
     if (!region.empty()) cells.push_back(region);
+    const FieldTerm* least = nullptr;
     for (int count = 0; !cells.empty(); ++count) {
       if (count == kMostCells) return false;
       ConvexCell cell = std::move(cells.back());
       cells.pop_back();
       const Vec3 point = inner_point(cell);
-      const GreatestDepth* least = nullptr;
-      Real least_depth = std::numeric_limits<Real>::max();
-      for (const GreatestDepth* term : field) {
-        const Real depth = greatest_depth(*term, point);
-        if (depth < least_depth) least_depth = depth, least = term;
-      }
-      if (!least || least_depth > depth_below(limit, point)) return false;
-      for (const HalfSpace& plane : *least) {
+      least = least_at(point, field, least);
+      if (!least || greatest_depth(least->planes, point) > depth_below(limit, point)) return false;
+      for (const HalfSpace& plane : least->planes) {
         ConvexCell beyond = clipped(cell, difference(plane, limit), kOnPlane * size_);
         if (beyond.empty()) continue;
         cells.push_back(std::move(beyond));
@@ -123,7 +154,7 @@ class PartWriter {
   }
 
   /// True if the greatest depth below `planes` is nowhere in the part below the (capped) field.
-  bool is_nowhere_below(const GreatestDepth& planes, const std::vector<const GreatestDepth*>& field) const {
+  bool is_nowhere_below(const GreatestDepth& planes, const Field& field) const {
     for (std::size_t i = 0; i < planes.size(); ++i) {
       ConvexCell region = clipped(cell_, difference(constant_depth(cap_), planes[i]), kOnPlane * size_);
       for (std::size_t k = 0; k < planes.size() && !region.empty(); ++k)
@@ -135,7 +166,7 @@ class PartWriter {
 
   /// The term with as few planes as leave the field as it is. Fewer planes only lower a term, and each reduced term is
   /// compared with the whole field, so all terms may be reduced at once.
-  GreatestDepth reduced(const SurfaceTerm& term, const std::vector<const GreatestDepth*>& field) const {
+  GreatestDepth reduced(const SurfaceTerm& term, const Field& field) const {
     const HalfSpace& own = term.planes[0];
     if (is_nowhere_below({own}, field)) return {own};
     GreatestDepth planes = without_dominated(term.planes);
@@ -182,7 +213,7 @@ class PartWriter {
       std::vector<const GreatestDepth*> others;
       for (std::size_t u = 0; u < terms.size(); ++u)
         if (u != t) others.push_back(&terms[u]);
-      if (is_nowhere_below(terms[t], others)) terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(t));
+      if (is_nowhere_below(terms[t], by_floor(others))) terms.erase(terms.begin() + static_cast<std::ptrdiff_t>(t));
     }
   }
 

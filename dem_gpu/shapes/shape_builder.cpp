@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 #include "catalog/input_error.h"
@@ -30,9 +31,14 @@ constexpr Real kFlatness = 1e-6;
 Vec3 to_vec3(const Point& p) { return {p[0], p[1], p[2]}; }
 Point to_point(const Vec3& v) { return {v.x, v.y, v.z}; }
 
+std::string shown(Real value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g", double(value));
+  return text;
+}
+
 [[noreturn]] void refuse(const std::string& name, std::size_t part, const std::string& what) {
-  throw InputError("shape '" + name + "', part " + std::to_string(part) + ": " + what +
-                   "; decompose the shape again with other limits");
+  throw InputError("shape '" + name + "', part " + std::to_string(part) + ": " + what);
 }
 
 Real size_of(const ConvexPart& part) {
@@ -73,7 +79,7 @@ void check_part(const std::string& name, std::size_t index, const ConvexPart& pa
   if (!(norm(area_sum) < kClosureTolerance * size * size)) refuse(name, index, "open: faces are missing");
   const Real volume = catalog::volume_moments(catalog::triangulated(part)).volume;
   if (!(volume > kFlatness * size * size * size))
-    refuse(name, index, "flat or inside out (volume " + std::to_string(volume) + " m3)");
+    refuse(name, index, "flat or inside out (" + shown(volume) + " m3 within " + shown(size) + " m)");
 }
 
 /// Rows of `axes` become x, y, z.

@@ -186,13 +186,16 @@ void refuse_fast_walls(const Model& model, const State& state) {
   const auto thinnest = std::min_element(width.begin(), width.end());
   if (travel <= kTravelShare * *thinnest) return;
   const auto body = thinnest - width.begin();
+  const std::string wall = "wall '" + model.scene.walls[state.walls.fastest(model.time_step)].name + "': ";
+  if (!std::isfinite(travel))
+    throw catalog::InputError(wall + "its motion is too fast to reckon with; use a slower one");
   char text[320];
   std::snprintf(text, sizeof text,
                 "moves up to %.4g m in a step of %.4g s, more than a quarter of the least width of body %td (%.4g m), "
                 "so that it could pass through it; use a time step of at most %.3g s, or a slower motion",
                 double(travel), double(model.time_step), body, double(*thinnest),
                 double(kTravelShare * *thinnest / travel * model.time_step));
-  throw catalog::InputError("wall '" + model.scene.walls[state.walls.fastest(model.time_step)].name + "': " + text);
+  throw catalog::InputError(wall + text);
 }
 
 Real book_start_energy(const Model& model, State& state) {

@@ -85,6 +85,19 @@ WallRate mean_rate(const Motion& motion, Real from, Real to) {
               rate * motion.angular_amplitude};
 }
 
+MotionRange motion_range(const Motion& motion, Real until) {
+  MotionRange range{effective_time(motion, until), 0, 0};
+  const Real elapsed = until - motion.start_time;
+  if (motion.frequency == 0 || !(elapsed > 0)) return range;
+  constexpr Real turn = 2 * std::numbers::pi_v<Real>;
+  const Real from = motion.phase, to = from + std::min(turn, circular_frequency(motion) * elapsed);
+  const auto passes = [&](Real angle) { return std::floor((to - angle) / turn) > std::floor((from - angle) / turn); };
+  const Real start = std::sin(from), end = std::sin(to);
+  range.swing_low = (passes(-turn / 4) ? Real(-1) : std::min(start, end)) - start;
+  range.swing_high = (passes(turn / 4) ? Real(1) : std::max(start, end)) - start;
+  return range;
+}
+
 WallTravel travel(const Motion& motion, Real from, Real to) {
   const Real span = effective_time(motion, to) - effective_time(motion, from);
   const Real swung = swing(motion, to) - swing(motion, from);

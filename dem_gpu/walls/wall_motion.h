@@ -27,6 +27,14 @@ WallRate rate_at(const Motion& motion, Real time);
 /// Mean over the time between: what moves the wall exactly as far.
 WallRate mean_rate(const Motion& motion, Real from, Real to);
 
+/// What a motion goes through from time 0 on.
+struct MotionRange {
+  Real full_speed_time = 0;            // times velocity and angular velocity: drift and rotation, from 0 on [s]
+  Real swing_low = 0, swing_high = 0;  // displacement of the oscillation / its amplitude, 0 within
+};
+/// Up to time `until`, which may be infinite; a ramp of the amplitude is taken as if it were over.
+MotionRange motion_range(const Motion& motion, Real until);
+
 /// How far the motion has gone between two times: the rotation centre [m], and turning about the axis of rotation and
 /// that of the swing [rad].
 struct WallTravel {

@@ -166,12 +166,19 @@ TEST(Checkpoint, RefusesWhatItCannotUse) {
     write_bytes(folder / "checkpoint.h5", bytes);
     EXPECT_NE(resume().find("checkpoint.h5"), std::string::npos) << resume();
   }
-  std::filesystem::remove(folder / "checkpoint.h5");
-  {
-    dem_gpu::io::Hdf5Writer newer(folder / "checkpoint.h5", "talus-checkpoint", 99);
-    newer.commit();
+  // Of another version, with nothing of today's in it: by its number, and no reason to go back to an earlier one.
+  write_bytes(folder / "checkpoint_previous.h5", whole);
+  for (const int version : {1, 4, 99}) {
+    {
+      dem_gpu::io::Hdf5Writer other(folder / "checkpoint.h5", "talus-checkpoint", version);
+      other.commit();
+    }
+    EXPECT_NE(
+        resume().find("is of checkpoint version " + std::to_string(version) + ", this program resumes from version "),
+        std::string::npos)
+        << resume();
   }
-  EXPECT_NE(resume().find("version"), std::string::npos) << resume();
+  std::filesystem::remove(folder / "checkpoint_previous.h5");
   dem_gpu::write_snapshot(folder / "checkpoint.h5", simulation.snapshot());
   EXPECT_NE(resume(), "accepted") << "a snapshot is no checkpoint";
 }

@@ -88,24 +88,28 @@ TEST(Absent, ColumnsOfWhatIsNotThere) {
                                     columns.last_friction_couple.size(),
                                     columns.spring_normal.size(),
                                     columns.owed_kick.size(),
-                                    columns.facet_begin.size()};
+                                    columns.facet_begin.size(),
+                                    columns.orbit_loss.size()};
   };
   using Lengths = std::vector<std::size_t>;
-  EXPECT_EQ(lengths({}), (Lengths{10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(lengths({true, false, false, false, false}), (Lengths{10, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(lengths({false, true, false, false, false}), (Lengths{10, 0, 0, 10, 10, 0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(lengths({false, false, true, false, false}), (Lengths{10, 0, 0, 0, 0, 10, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(lengths({false, false, false, true, false}), (Lengths{10, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
-  EXPECT_EQ(lengths({true, false, false, true, true}), (Lengths{10, 11, 10, 0, 0, 0, 10, 0, 10, 0, 0}));
-  EXPECT_EQ(lengths({true, true, false, true, true}), (Lengths{10, 11, 10, 10, 10, 0, 10, 10, 10, 0, 0}));
+  EXPECT_EQ(lengths({}), (Lengths{10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({true, false, false, false, false}), (Lengths{10, 0, 10, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({false, true, false, false, false}), (Lengths{10, 0, 0, 10, 10, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({false, false, true, false, false}), (Lengths{10, 0, 0, 0, 0, 10, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({false, false, false, true, false}), (Lengths{10, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(lengths({true, false, false, true, true}), (Lengths{10, 11, 10, 0, 0, 0, 10, 0, 10, 0, 0, 0}));
+  EXPECT_EQ(lengths({true, true, false, true, true}), (Lengths{10, 11, 10, 10, 10, 0, 10, 10, 10, 0, 0, 0}));
   dem_gpu::ContactFeatures at_meshes;
   at_meshes.has_meshes = true;
-  EXPECT_EQ(lengths(at_meshes), (Lengths{10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 11}));
+  EXPECT_EQ(lengths(at_meshes), (Lengths{10, 0, 0, 0, 0, 0, 0, 0, 0, 0, 11, 0}));
   dem_gpu::ContactFeatures rolling_spheres;
   rolling_spheres.has_spheres = true;
-  EXPECT_EQ(lengths(rolling_spheres), (Lengths{10, 0, 0, 0, 0, 0, 0, 0, 0, 10, 0}));
+  EXPECT_EQ(lengths(rolling_spheres), (Lengths{10, 0, 0, 0, 0, 0, 0, 0, 0, 10, 0, 0}));
+  rolling_spheres.has_ledger = true;
+  EXPECT_EQ(lengths(rolling_spheres), (Lengths{10, 0, 0, 10, 10, 0, 0, 0, 0, 10, 0, 10}));
+  rolling_spheres.has_ledger = false;
   rolling_spheres.has_friction_couples = true;
-  EXPECT_EQ(lengths(rolling_spheres), (Lengths{10, 0, 0, 0, 0, 0, 10, 0, 0, 10, 0}));
+  EXPECT_EQ(lengths(rolling_spheres), (Lengths{10, 0, 0, 0, 0, 0, 10, 0, 0, 10, 0, 0}));
 }
 
 TEST(Absent, GhostsOfWhatIsNotPeriodic) {

@@ -87,6 +87,22 @@ TEST(BadWall, SwingTheStepCannotFollowIsRefusedByName) {
   EXPECT_EQ(refusal(scene), "accepted");
 }
 
+TEST(BadContact, RollingFrictionThatNoStepFollowsIsRefused) {
+  dem_gpu::Scene scene = overlapping_cubes(0.1);
+  scene.contact[0][0].rolling_friction = 1;
+  EXPECT_EQ(refusal(scene), "accepted");
+  scene.contact[0][0].rolling_friction = 1e300;
+  expect_named(refusal(scene), {"contact of '", "rolling friction must be at most 1"});
+}
+
+TEST(BadWall, AMotionBeyondReckoningIsRefused) {
+  dem_gpu::Scene scene = overlapping_cubes(0.1);
+  scene.walls = {floor_wall()};
+  std::get<dem_gpu::Plane>(scene.walls[0].geometry).point.z = -5;
+  scene.walls[0].motion.velocity = {0, 0, 1e300};
+  expect_named(refusal(scene), {"wall 'floor'", "too fast to reckon with"});
+}
+
 TEST(BadWall, TwoMovingObjectsOfOneNameAreRefused) {
   dem_gpu::Scene scene = overlapping_cubes(0.1);
   dem_gpu::Wall lifter;

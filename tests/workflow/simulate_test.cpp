@@ -265,6 +265,33 @@ TEST_F(Simulate, GoesOnFromThePreviousCheckpointAndSaysSo) {
   EXPECT_TRUE(fs::exists(run_ / "snapshots" / "snapshot_000003.h5"));
 }
 
+TEST_F(Simulate, AResumedRunMendsItsFolderAndSaysWhatIsLost) {
+  ASSERT_EQ(run({scene_.string(), "--end-time", "20 ms"}), 0) << error_;
+  const fs::path geometry = run_ / "geometry.h5";
+  const std::string whole = read_bytes(geometry);
+  fs::remove_all(run_ / "snapshots");
+  fs::remove(geometry);
+  fs::remove(run_ / "walls.csv");
+  const std::string series = read_bytes(run_ / "time_series.csv");
+  test_support::write_bytes(run_ / "time_series.csv", series.substr(0, series.size() / 2));
+  ASSERT_EQ(run({"--resume", run_.string(), "--end-time", "30 ms"}), 0) << error_;
+  const std::string log = read_bytes(run_ / "run.log");
+  for (const char* part : {"geometry.h5: no such file", "snapshots: 3 of the 3 snapshots so far are missing",
+                           "walls.csv: was missing", "time_series.csv: ends at "}) {
+    EXPECT_NE(error_.find(part), std::string::npos) << part << ": " << error_;
+    EXPECT_NE(log.find(part), std::string::npos) << part;
+  }
+  EXPECT_EQ(read_bytes(geometry), whole);
+  EXPECT_TRUE(fs::exists(run_ / "snapshots" / "snapshot_000003.h5"));
+  // A whole folder needs no mending; a damaged file does.
+  ASSERT_EQ(run({"--resume", run_.string(), "--end-time", "32 ms"}), 0) << error_;
+  EXPECT_EQ(error_.find("geometry.h5"), std::string::npos) << error_;
+  test_support::write_bytes(geometry, whole.substr(0, whole.size() / 2));
+  ASSERT_EQ(run({"--resume", run_.string(), "--end-time", "34 ms"}), 0) << error_;
+  EXPECT_NE(error_.find("it was made again from the scene"), std::string::npos) << error_;
+  EXPECT_EQ(read_bytes(geometry), whole);
+}
+
 TEST_F(Simulate, ADamagedResolvedSceneIsBadInput) {
   ASSERT_EQ(run({scene_.string(), "--end-time", "5 ms"}), 0) << error_;
   const nlohmann::json whole = json(run_ / "resolved_scene.json");

@@ -28,8 +28,8 @@ const Bench& bench_named(const std::string& name) {
     if (bench.name == name) return bench;
     known.push_back(bench.name);
   }
-  throw catalog::UsageError("no bench '" + name + "'; did you mean '" + *catalog::nearest_word(name, known) +
-                            "'? talus bench --list names all");
+  throw catalog::UsageError("no bench '" + name + "'; " + catalog::word_hint(name, known) +
+                            " talus bench --list names all");
 }
 
 }  // namespace workflows

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "dem_gpu/contacts/contact_columns.h"
@@ -41,7 +42,8 @@ struct SphereFriction {
     const auto tangential = [&](const Vec3& v) { return v - dot(v, normal) * normal; };
     TangentialSpring spring{carried_spring<Law>(contacts.tangential_displacement[c], contacts.depth[c], contact),
                             contact.pair.tangential_stiffness_ratio * contact.elastic.stiffness, 0};
-    spring.damping = 2 * contact.pair.sphere_damping * std::sqrt(contact.effective_mass * spring.stiffness);
+    spring.damping = std::min(2 * contact.pair.sphere_damping * std::sqrt(contact.effective_mass * spring.stiffness),
+                              largest_dashpot(contact));
     FrictionForces friction;
     friction.force = spring.force(normal, tangential(contact.mean.velocity), tangential(contact.predicted.velocity),
                                   contact.time_step, contact.pair.friction_coefficient * contact.normal_load());
@@ -51,6 +53,14 @@ struct SphereFriction {
   }
 
   TALUS_HD static void forget(const ContactView& contacts, int c) { contacts.tangential_displacement[c] = Vec3{}; }
+
+ private:
+  /// The dashpot sees the slip half a step late: from the whole of it a step on, it would swing and add energy. It
+  /// takes half of it at most [N s/m].
+  TALUS_HD static Real largest_dashpot(const FrictionContact& contact) {
+    constexpr Real kShare = 0.5, kTangentialMass = Real(2) / 7;  // of a solid sphere that can turn, over its mass
+    return contact.time_step > 0 ? kShare * kTangentialMass * contact.effective_mass / contact.time_step : 0;
+  }
 };
 
 }  // namespace dem_gpu

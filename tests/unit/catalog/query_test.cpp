@@ -186,4 +186,13 @@ TEST(NearestWord, CountsEdits) {
   EXPECT_EQ(nearest_word("x", {}), std::nullopt);
 }
 
+TEST(NearestWord, IsNearInRelationToItsLength) {
+  EXPECT_EQ(nearest_word("wlal", {"wall"}), "wall");
+  EXPECT_EQ(nearest_word("frictoin", {"friction", "fraction"}), "friction");
+  EXPECT_EQ(nearest_word("colour", {"count", "radius"}), std::nullopt);
+  EXPECT_EQ(nearest_word("x", {"yz"}), std::nullopt);
+  EXPECT_EQ(word_hint("colour", {"count", "radius"}), "known are 'count', 'radius'.");
+  EXPECT_EQ(word_hint("volum", {"volume"}), "did you mean 'volume'?");
+}
+
 }  // namespace

@@ -45,6 +45,24 @@ TEST_F(SeriesFiles, StartsNewWithoutCheckpointOrFile) {
   EXPECT_EQ(goes_on(-1), "time[s],x\n9,9\n");
 }
 
+TEST_F(SeriesFiles, SaysWhatIsMissingToGoOn) {
+  const auto gap = [&](const char* text, double due) {
+    if (text)
+      write_whole(file_, text);
+    else
+      std::filesystem::remove(file_);
+    return SeriesFile(file_, "time[s],x", 1).gap(due);
+  };
+  EXPECT_EQ(gap("time[s],x\n0,a\n0,b\n0.666666666667,a\n0.666666666667,b\n", 2.0 / 3), "");
+  EXPECT_NE(gap("time[s],x\n0,a\n0.1,a\n", 0.2).find("ends at 0.1 s; it goes on without its rows up to 0.2 s"),
+            std::string::npos);
+  EXPECT_NE(gap("time[s],x\n0,a\n0,b\n0.2,a\n0.2", 0.2).find("some rows of its last time"), std::string::npos);
+  EXPECT_NE(gap("time[s],x\n", 0.2).find("has no rows"), std::string::npos);
+  EXPECT_NE(gap(nullptr, 0.2).find("was missing"), std::string::npos);
+  EXPECT_NE(gap("time[s],y\n0,a\n", 0.2).find("another header"), std::string::npos);
+  EXPECT_EQ(read_whole(file_.string() + ".old").value(), "time[s],y\n0,a\n") << "nothing is thrown away";
+}
+
 TEST_F(SeriesFiles, LoadsOfAGroupAreTheSumOfItsWalls) {
   // A ball at rest in the corner of a floor and a side that are one group; the lone plane beside them is in none.
   dem_gpu::Scene scene;

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "tests/support/cube_attitudes.h"
 #include "tests/support/dem_runs.h"
 
 namespace {
@@ -23,14 +24,7 @@ double rebound(Scene scene, double speed) {
   return simulation.snapshot().velocity[0].z / speed;
 }
 
-struct Attitude {
-  const char* name;
-  Quaternion orientation;
-  Real half_height;  // [m]
-};
-const Attitude kAttitudes[] = {{"face", {}, kEdge / 2},
-                               {"edge", edge_down(), kEdge / std::numbers::sqrt2},
-                               {"vertex", vertex_down(), kEdge* std::sqrt(Real(3)) / 2}};
+const std::array<Attitude, 3> kAttitudes = cube_attitudes(kEdge);
 constexpr double kAsked[] = {0.3, 0.5, 0.8, 1.0};
 
 TEST(NormalBounce, CubeOnPlaneAndOnSlab) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <numbers>
 
+#include "tests/support/cube_attitudes.h"
 #include "tests/support/dem_runs.h"
 
 namespace {
@@ -18,14 +19,7 @@ using dem_gpu::Simulation;
 constexpr Real kEdge = 0.02;  // of the cube [m]
 const Real kDiameter = kEdge * std::cbrt(6 / std::numbers::pi);
 
-struct Attitude {
-  const char* name;
-  Quaternion orientation;
-  Real half_height;  // [m]
-};
-const Attitude kFace{"face", {}, kEdge / 2};
-const Attitude kEdgeDown{"edge", edge_down(), kEdge / std::numbers::sqrt2};
-const Attitude kCorner{"corner", vertex_down(), kEdge* std::sqrt(Real(3)) / 2};
+const auto [kFace, kEdgeDown, kCorner] = cube_attitudes(kEdge);
 
 /// A cube about to strike a plane, or a slab, at `speed`.
 Scene landing(const Attitude& attitude, double restitution, double speed, bool on_slab) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "dem_gpu/run_promise.h"
+#include "tests/support/cube_attitudes.h"
 #include "tests/support/dem_runs.h"
 #include "tests/support/precision.h"
 
@@ -26,14 +27,7 @@ constexpr Real kApart = 6 * kEdge;  // between impacts side by side [m]
 constexpr double kAsked[] = {0.05, 0.1, 0.25, 0.5, 0.75, 0.9, 1.0};
 const Vec3 kAlong = {0.7, 0.4, 0};  // tangential velocity of oblique impacts [m/s]
 
-struct Attitude {
-  const char* name;
-  Quaternion orientation;
-  Real half_height;  // [m]
-};
-const Attitude kAttitudes[] = {{"face", {}, kEdge / 2},
-                               {"edge", edge_down(), kEdge / std::numbers::sqrt2},
-                               {"corner", vertex_down(), kEdge* std::sqrt(Real(3)) / 2}};
+const std::array<Attitude, 3> kAttitudes = cube_attitudes(kEdge);
 
 enum class Ground { plane, slab, cube };
 constexpr const char* kGroundNames[] = {"plane", "slab", "cube"};

@@ -6,9 +6,13 @@
 
 #include <functional>
 #include <limits>
+#include <numbers>
+#include <optional>
 
 #include "catalog/input_error.h"
+#include "dem_gpu/periodic/wall_extent.h"
 #include "dem_gpu/simulation.h"
+#include "dem_gpu/walls/wall_motion.h"
 #include "tests/support/periodic_scene.h"
 #include "tests/support/wall_meshes.h"
 
@@ -114,6 +118,107 @@ TEST(PeriodicCheck, RefusesWallsThatTurnThroughAFace) {
   EXPECT_EQ(refusal(turning({3, 0, 0}, {}, 0.5)), "accepted");
   expect_refused(turning({3, 0.1, 0}, {}, 0.5), {"wall 'floor'", "another axis than x", "turn it about x"});
   expect_refused(turning({}, {0, 0, 0.1}, 0.5), {"another axis than x"});
+}
+
+TEST(PeriodicCheck, RefusesWallsThatLeaveByTheirMotion) {
+  // Along x, a block of 2 cm in the middle of 16 cm, bodies reaching 2.08 cm: clear by 4.92 cm on both sides.
+  const auto moving = [](const dem_gpu::Motion& motion, Real end_time, std::optional<Real> removed_at = {}) {
+    return refusal([&](Scene& s) {
+      s.periodic = periodic_box({0, 0, 0}, {0.16, 0, 0}, "x");
+      s.walls[0].geometry =
+          dem_gpu::VolumeObject{moved_part(dem_gpu::box_part({0.02, 0.1, 0.01}), {}, {0.08, 0.2, -0.01})};
+      s.walls[0].motion = motion;
+      s.walls[0].removed_at = removed_at;
+      s.run.end_time = end_time;
+    });
+  };
+  const auto expect_words = [](const std::string& message, const std::string& words) {
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+    EXPECT_NE(message.find("wall 'floor': by its motion up to"), std::string::npos) << message;
+  };
+  dem_gpu::Motion drift;
+  drift.velocity = {0.01, 3, 0};
+  EXPECT_EQ(moving(drift, 4.9), "accepted");
+  expect_words(moving(drift, 5), "it gets to 0.07 m .. 0.14 m along x");
+  EXPECT_EQ(moving(drift, 5, 4.9), "accepted") << "removed before";
+  expect_words(moving(drift, 0), "no end of the run");
+
+  dem_gpu::Motion oscillation;
+  oscillation.amplitude = {0.049, 0, 0};
+  oscillation.frequency = 5;
+  EXPECT_EQ(moving(oscillation, 1), "accepted");
+  oscillation.phase = std::numbers::pi / 2;  // from -2 to 0 amplitudes
+  expect_words(moving(oscillation, 1), "-0.028 m .. 0.09 m");
+  EXPECT_EQ(moving(oscillation, 0.05), "accepted") << "one amplitude on the way";
+
+  dem_gpu::Motion rotation;  // about z, one end of the block
+  rotation.rotation_centre = {0.08, 0.15, 0};
+  rotation.angular_velocity = {0, 0, 0.1};
+  EXPECT_EQ(moving(rotation, 4), "accepted") << "0.4 rad: the far end is 0.1 sin(0.4) + 0.01 cos(0.4) out";
+  expect_words(moving(rotation, 8), "along x");
+  dem_gpu::Motion swing;
+  swing.rotation_centre = rotation.rotation_centre;
+  swing.angular_amplitude = {0, 0, 0.4};
+  swing.frequency = 2;
+  EXPECT_EQ(moving(swing, 1), "accepted");
+  swing.angular_amplitude.z = 0.8;
+  expect_words(moving(swing, 1), "along x");
+
+  // Past both faces by 1 cm more than needed: 0.9 cm of drift is fine.
+  const auto slab = [](Real end_time) {
+    return refusal([&](Scene& s) {
+      const Real length = 0.08 + 2 * (1.2 * 0.01 * std::sqrt(3.0) + 0.01);
+      s.walls[0].geometry =
+          dem_gpu::VolumeObject{moved_part(dem_gpu::box_part({length, length, 0.01}), {}, {0.04, 0.04, -0.01})};
+      s.walls[0].motion.velocity = {0, 0.01, 0};
+      s.run.end_time = end_time;
+    });
+  };
+  EXPECT_EQ(slab(0.9), "accepted");
+  expect_words(slab(1.1), "along y");
+}
+
+TEST(PeriodicCheck, SweptExtentIsThatOfTheMovedWall) {
+  // Against the wall's corners moved step by step.
+  dem_gpu::Wall wall;
+  const catalog::ConvexPart part = moved_part(dem_gpu::box_part({0.1, 0.02, 0.03}), {}, {0.3, -0.1, 0.2});
+  wall.geometry = dem_gpu::VolumeObject{part};
+  dem_gpu::Motion rotation;
+  rotation.rotation_centre = {0.2, 0.1, 0};
+  rotation.angular_velocity = {0.3, -0.5, 0.9};
+  dem_gpu::Motion swing = rotation;
+  swing.angular_velocity = {};
+  swing.angular_amplitude = {0.2, 0.3, -0.4};
+  swing.frequency = 0.4;
+  swing.phase = 0.7;
+  for (const dem_gpu::Motion& motion : {rotation, swing}) {
+    wall.motion = motion;
+    for (const Real until : {0.5, 1.5, 9.0})
+      for (int axis = 0; axis < 3; ++axis) {
+        Real low = 1e9, high = -1e9;
+        constexpr int kSteps = 20000;
+        for (int step = 0; step <= kSteps; ++step) {
+          const dem_gpu::WallPlace at = place_at(motion, until * step / kSteps);
+          for (const catalog::Point& p : part.vertices) {
+            const Vec3 x = motion.rotation_centre +
+                           dem_gpu::rotate(at.rotation, Vec3{p[0], p[1], p[2]} - motion.rotation_centre) + at.shift;
+            low = std::min(low, dem_gpu::component(x, axis));
+            high = std::max(high, dem_gpu::component(x, axis));
+          }
+        }
+        const dem_gpu::Extent swept = swept_extent(wall, axis, until);
+        // Sampled extremes miss the true ones by the square of a step.
+        EXPECT_NEAR(swept.low, low, 1e-6) << axis << ' ' << until;
+        EXPECT_NEAR(swept.high, high, 1e-6) << axis << ' ' << until;
+      }
+  }
+  // A disc that turns about a diameter sweeps a ball of its radius.
+  wall.geometry = dem_gpu::Disc{{0, 0, 0}, {0, 0, 1}, 0.1};
+  wall.motion = {};
+  wall.motion.angular_velocity = {1, 0, 0};
+  EXPECT_NEAR(swept_extent(wall, 2, 10).high, 0.1, 2e-4) << "the polygon about the rim";
+  EXPECT_GE(swept_extent(wall, 2, 10).high, 0.1);
+  EXPECT_DOUBLE_EQ(extent_at_start(wall, 2).high, 0);
 }
 
 TEST(PeriodicCheck, RefusesAnOutflowAlongAPeriodicAxis) {

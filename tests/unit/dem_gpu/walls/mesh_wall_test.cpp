@@ -53,6 +53,53 @@ TEST(MeshWall, RefusesWithTheRemedy) {
   EXPECT_NE(refusal({tent, 0.1}).find("folded"), std::string::npos);
 }
 
+/// One mesh of several, each as it is.
+TriangleMesh together(const std::vector<TriangleMesh>& pieces) {
+  TriangleMesh all;
+  for (const TriangleMesh& piece : pieces) {
+    const int first = static_cast<int>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), piece.vertices.begin(), piece.vertices.end());
+    for (const auto& [a, b, c] : piece.faces) all.faces.push_back({first + a, first + b, first + c});
+  }
+  return all;
+}
+
+TriangleMesh turned_round(TriangleMesh mesh) {
+  for (auto& face : mesh.faces) std::swap(face[0], face[1]);
+  return mesh;
+}
+
+TEST(MeshWall, JudgesEachShellByItself) {
+  const TriangleMesh cube = solids::box({0, 0, 0}, {1, 1, 1}), beside = solids::box({2, 0, 0}, {2.5, 0.5, 0.5}),
+                     cavity = turned_round(solids::box({0.2, 0.2, 0.2}, {0.8, 0.8, 0.8})),
+                     core = solids::box({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6});
+  EXPECT_EQ(refusal({together({cube, beside})}), "accepted");
+  EXPECT_EQ(refusal({together({cube, cavity, beside})}), "accepted");
+  EXPECT_EQ(refusal({together({core, cavity, cube})}), "accepted") << "solid, hole, solid from outside in";
+  const std::string alone = refusal({together({cube, turned_round(beside)})});
+  EXPECT_NE(alone.find("the shell of triangle 12 (12 of the mesh's triangles) is inverted"), std::string::npos)
+      << alone;
+  const std::string within = refusal({together({turned_round(cavity), cube})});
+  EXPECT_NE(within.find("the shell of triangle 0 "), std::string::npos) << within;
+  EXPECT_NE(within.find("if it is a cavity, or remove it"), std::string::npos) << within;
+  EXPECT_NE(refusal({together({cube, cavity, turned_round(core)})}).find("triangle 24 "), std::string::npos);
+}
+
+TEST(MeshWall, AContainersShellsAreTurnedToTheirSolid) {
+  // A room with a pillar in it: solid about the room and in the pillar, however the file winds them.
+  const TriangleMesh room = solids::box({0, 0, 0}, {1, 1, 1}), pillar = solids::box({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6});
+  for (const bool room_turned : {false, true})
+    for (const bool pillar_turned : {false, true}) {
+      const TriangleMesh mesh =
+          together({room_turned ? turned_round(room) : room, pillar_turned ? turned_round(pillar) : pillar});
+      const dem_gpu::MeshProbe probe(MeshObject{mesh, std::nullopt, true});
+      EXPECT_NEAR(probe.distance({0.2, 0.5, 0.5}), 0.2, 1e-12);
+      EXPECT_NEAR(probe.distance({0.3, 0.5, 0.5}), 0.1, 1e-12) << "from the pillar";
+      EXPECT_LT(probe.distance({0.5, 0.5, 0.5}), 0) << "in the pillar";
+      EXPECT_LT(probe.distance({-0.1, 0.5, 0.5}), 0) << "about the room";
+    }
+}
+
 /// A cube of edge 0.4 against a mesh wall, and the energy U = integral of the field over the overlap by sampling.
 class MeshField {
  public:
