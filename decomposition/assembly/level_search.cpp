@@ -21,8 +21,9 @@ constexpr double kSearchCells = 2.5e5;  // for comparing cuts: what fits the cac
 // The race, at effort 1: so many trees are grown, the best of them go on beyond kFirstChoice parts (the joint fit's
 // misfit there foretells that at twice as many: correlation 0.5 to 0.8 on rocks).
 constexpr double kTrees = 8, kTreesGoingOn = 2;
-constexpr double kTreesOfFaceted = 2;  // the many facet planes to try make these trees dear, and alike
-constexpr int kFirstChoice = 4;
+constexpr double kTreesOfFaceted = 2;   // the many facet planes to try make these trees dear, and alike
+constexpr double kTreesBeyondMany = 3;  // at more than kManyParts, where the choice at kFirstChoice foretells less
+constexpr int kFirstChoice = 4, kManyParts = 8;
 constexpr double kShareForTrees = 0.5;  // of a time budget
 constexpr std::size_t kMostTrees = 1000;
 constexpr double kRoomToMove = 1.3;  // on the smallest volume and thickness: the joint fits move the cuts
@@ -182,7 +183,7 @@ std::vector<std::size_t> LevelSearch::racing_trees(int count) {
   std::stable_sort(racing.begin(), racing.end(), [&](std::size_t a, std::size_t b) {
     return trees_[a].misfit.at(kFirstChoice) < trees_[b].misfit.at(kFirstChoice);
   });
-  const double going_on = kTreesGoingOn * std::sqrt(options_.effort);
+  const double going_on = (count > kManyParts ? kTreesBeyondMany : kTreesGoingOn) * std::sqrt(options_.effort);
   racing.resize(std::min(racing.size(), static_cast<std::size_t>(std::max(1.0, std::round(going_on)))));
   return racing;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "decomposition/fit/bumps.h"
 #include "decomposition/fit/column_measure.h"
 #include "decomposition/fit/face_forces.h"
 #include "decomposition/fit/leaf_shape.h"
@@ -13,10 +14,9 @@ namespace decomposition {
 namespace {
 
 constexpr double kMomentum = 0.6;
-constexpr int kReviveEvery = 12;          // steps between putting back corners that fell inside
-constexpr double kReviveUntil = 0.85;     // share of the steps
-constexpr double kHighestRevival = 0.06;  // a point is put back at most this share of the diagonal above a face
-constexpr double kVolumeGain = 0.4;       // of the integral steering of the volume, per step and relative volume error
+constexpr int kReviveEvery = 12;       // steps between putting back corners that fell inside
+constexpr double kReviveUntil = 0.85;  // share of the steps
+constexpr double kVolumeGain = 0.4;    // of the integral steering of the volume, per step and relative volume error
 constexpr double kLargestSteering = 0.5;
 constexpr double kSteepest = 0.3;     // sine between an edge and the cut it ends on, below which its motion is damped
 constexpr double kTurningArm = 0.1;   // share of the diagonal: holds cuts with small sections from turning fast
@@ -300,34 +300,11 @@ class JointFitter {
     for (std::size_t v = 0; v < own_velocity_[a].size(); ++v)
       if (!shape.hull.is_vertex(static_cast<int>(v))) dead.push_back(v);
     if (dead.empty()) return;
-    struct Bump {
-      double volume;
-      Vec3 place;
-    };
-    std::vector<Bump> bumps;
-    const double rise = solid_.cell();
-    for (const auto& face : shape.hull.faces()) {
-      if (shape.is_on_one_cut(face)) continue;
-      const auto at = [&](std::size_t k) { return shape.points[static_cast<std::size_t>(face[k])]; };
-      const Vec3 area_normal = 0.5 * cross(at(1) - at(0), at(2) - at(0));
-      const double area = norm(area_normal);
-      const Vec3 middle = (1 / 3.0) * (at(0) + at(1) + at(2));
-      double highest = kHighestRevival * solid_.diagonal();  // rock beyond a cut is another part's
-      for (const Plane& plane : shape.cell)
-        if (const double slope = dot(plane.normal, area_normal) / area; slope > 0)
-          highest = std::fmin(highest, -plane.signed_distance(middle) / slope - kOwnMargin * solid_.diagonal());
-      double height = 0;
-      while (height + rise < highest && solid_.occupancy(middle + ((height + rise) / area) * area_normal) > 0.5)
-        height += rise;
-      if (highest < rise) continue;
-      height = std::fmax(height, 0.1 * rise);
-      bumps.push_back({area * height, middle + (0.5 * height / area) * area_normal});
-    }
-    const std::size_t count = std::min(dead.size(), bumps.size());
-    std::partial_sort(bumps.begin(), bumps.begin() + static_cast<std::ptrdiff_t>(count), bumps.end(),
-                      [](const Bump& p, const Bump& q) { return p.volume > q.volume; });
-    for (std::size_t k = 0; k < count; ++k) {
-      put_own(a, dead[k], bumps[k].place);
+    const std::vector<Vec3> places =
+        bump_places(solid_, shape.points, shape.hull.faces(), shape.cell, kOwnMargin * solid_.diagonal(), dead.size(),
+                    [&](const auto& face) { return shape.is_on_one_cut(face); });
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      put_own(a, dead[k], places[k]);
       own_velocity_[a][dead[k]] = {};
     }
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "decomposition/fit/bumps.h"
 #include "decomposition/fit/face_forces.h"
 
 namespace decomposition {
@@ -18,7 +19,6 @@ constexpr int kReviveEvery = 12;      // steps between putting back vertices tha
 constexpr double kReviveUntil = 0.9;  // share of the steps
 constexpr double kVolumeGain = 0.4;   // of the integral steering of the volume, per step and relative volume error
 constexpr double kLargestSteering = 0.5;
-constexpr double kHighestRevival = 0.06;  // a vertex is put back at most this share of the diagonal above a face
 
 double margin_of(std::size_t point, double diagonal) {
   const double spread = 0.6180339887498949 * static_cast<double>(point + 1);
@@ -97,30 +97,10 @@ class Fitter {
   void revive_dead_vertices() {
     find_dead_vertices();
     if (dead_.empty()) return;
-    struct Bump {
-      double volume;
-      Vec3 place;
-    };
-    std::vector<Bump> bumps;
-    const double rise = solid_.cell();
-    for (const auto& face : hull_.faces()) {
-      if (is_on_cut(face)) continue;
-      const auto [ia, ib, ic] = face;
-      const Vec3 area_normal = 0.5 * cross(at(ib) - at(ia), at(ic) - at(ia));
-      const double area = norm(area_normal);
-      const Vec3 middle = (1 / 3.0) * (at(ia) + at(ib) + at(ic));
-      double height = 0;
-      while (height < kHighestRevival * solid_.diagonal() &&
-             solid_.occupancy(middle + ((height + rise) / area) * area_normal) > 0.5)
-        height += rise;
-      height = std::fmax(height, 0.1 * rise);
-      bumps.push_back({area * height, middle + (0.5 * height / area) * area_normal});
-    }
-    const std::size_t count = std::min(dead_.size(), bumps.size());
-    std::partial_sort(bumps.begin(), bumps.begin() + static_cast<std::ptrdiff_t>(count), bumps.end(),
-                      [](const Bump& a, const Bump& b) { return a.volume > b.volume; });
-    for (std::size_t k = 0; k < count; ++k) {
-      put(dead_[k], bumps[k].place);
+    const std::vector<Vec3> places = bump_places(solid_, points_, hull_.faces(), cell_, kCellMargin * solid_.diagonal(),
+                                                 dead_.size(), [&](const auto& face) { return is_on_cut(face); });
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      put(dead_[k], places[k]);
       velocity_[dead_[k]] = {};
     }
     hull_.build(points_);
