@@ -27,6 +27,7 @@ struct ShapeSummary {
     int parts_asked = 0;
     int parts = 0;
     int vertex_cap = 0;
+    int vertices = 0, faces = 0;  // of all parts
     DecompositionError error;
   };
   std::vector<Level> levels;  // ascending parts_asked, then vertex_cap

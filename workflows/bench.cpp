@@ -35,6 +35,7 @@ struct Options {
   fs::path json;          // empty: none
   fs::path out;           // folder of table and plots; empty: beside --json
   std::vector<int> threads;
+  fs::path catalogue;  // empty: none
   bool is_list = false;
 };
 
@@ -50,6 +51,7 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
                  "thread counts to compare, such as 1,2; default: the engine's own choice")
       ->delimiter(',')
       ->check(CLI::Range(1, 1000000));
+  app.add_option("--catalog", options.catalogue, "shape catalogue, for the bench levels");
   app.add_flag("--list", options.is_list, "name the benches and their cases");
   app.set_version_flag("--version", tool_version());
   try {
@@ -86,6 +88,7 @@ std::vector<BenchCase> chosen_cases(const BenchPlan& plan, const Options& option
 
 std::string command_of(const Options& options, const BenchCase& bench_case) {
   std::string command = "talus bench " + options.bench + " --case " + bench_case.name;
+  if (!options.catalogue.empty()) command += " --catalog " + options.catalogue.string();
   for (std::size_t i = 0; i < options.threads.size(); ++i)
     command += (i ? "," : " --threads ") + std::to_string(options.threads[i]);
   return command;
@@ -123,7 +126,7 @@ void write_files(const Bench& bench, const BenchPlan& plan, const Measured& meas
 
 int run_bench(const Options& options) {
   const Bench& bench = bench_named(options.bench);
-  const BenchPlan plan = bench.plan({options.threads});
+  const BenchPlan plan = bench.plan({options.threads, options.catalogue});
   const Measured measured = measure(chosen_cases(plan, options), options);
   std::fputs(text_table(measured.figures).c_str(), stdout);
   if (!options.json.empty()) write_files(bench, plan, measured, options);

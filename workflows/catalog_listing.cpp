@@ -8,6 +8,8 @@
 #include <numbers>
 #include <set>
 
+#include "workflows/level_choice.h"
+
 namespace workflows {
 namespace {
 
@@ -89,10 +91,16 @@ Json error_json(const catalog::DecompositionError& error) {
 
 Json levels_json(const ShapeSummary& shape) {
   Json levels = Json::array();
-  for (const auto& level : shape.levels)
+  const std::vector<bool> front = on_front(shape.levels);
+  std::size_t k = 0;
+  for (const Level& level : shape.levels)
     levels.push_back({{"parts_asked", level.parts_asked},
                       {"parts", level.parts},
                       {"vertex_cap", level.vertex_cap},
+                      {"vertices", level.vertices},
+                      {"faces", level.faces},
+                      {"contact_cost", contact_cost(level)},
+                      {"on_front", static_cast<bool>(front[k++])},
                       {"error", error_json(level.error)}});
   return levels;
 }
@@ -103,11 +111,18 @@ std::string finished(const char* key, Json value) {
 }
 
 std::string levels_table(const ShapeSummary& summary) {
-  std::vector<Row> rows{{"  parts", "cap", "kept", "sym.difference", "missing", "volume", "surface mean", "surface max",
-                         "overlap", "+-"}};
-  for (const auto& level : summary.levels) {
+  std::vector<Row> rows{{"  parts", "cap", "kept", "faces", "cost", "front", "sym.difference", "missing", "volume",
+                         "surface mean", "surface max", "overlap", "+-"}};
+  const std::vector<bool> front = on_front(summary.levels);
+  for (std::size_t k = 0; k < summary.levels.size(); ++k) {
+    const Level& level = summary.levels[k];
     const catalog::DecompositionError& error = level.error;
-    Row row{"  " + std::to_string(level.parts_asked), std::to_string(level.vertex_cap), std::to_string(level.parts)};
+    Row row{"  " + std::to_string(level.parts_asked),
+            std::to_string(level.vertex_cap),
+            std::to_string(level.parts),
+            std::to_string(level.faces),
+            figure(contact_cost(level)),
+            front[k] ? "*" : "-"};
     for (const double value : {error.symmetric_difference, error.missing_volume, error.volume_error, error.surface_mean,
                                error.surface_max, error.overlap, error.method_error})
       row.push_back(figure(value));

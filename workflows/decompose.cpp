@@ -29,7 +29,9 @@ void declare_options(CLI::App& app, CommandLine& line) {
       ->delimiter(',')
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  app.add_option("--vertices", quality.vertex_cap, "most vertices a part, 8 to 64")
+  app.add_option("--vertices", line.batch.vertex_caps,
+                 "most vertices a part, 8 to 64; several, such as 16,32,64, make a ladder of each")
+      ->delimiter(',')
       ->check(CLI::Range(8, 64))
       ->capture_default_str();
   app.add_option("--seed", quality.seed, "of the random numbers; the same seed gives the same bytes")

@@ -49,16 +49,16 @@ std::optional<LevelOfDetail> kept_level(const catalog::ShapeCatalog& shapes, cat
   return level;
 }
 
-/// Kept and new levels of one shape, in the order asked for.
-std::vector<DecomposedLevel> levels_of(catalog::ShapeCatalog& shapes, catalog::ShapeId id,
-                                       const DecomposeBatchOptions& options) {
-  const catalog::ShapeRecord shape = shapes.shape(id);
+/// Kept and new levels of one shape and one vertex cap, in the order asked for.
+std::vector<DecomposedLevel> ladder_of(catalog::ShapeCatalog& shapes, catalog::ShapeId id,
+                                       const catalog::ShapeRecord& shape, const std::vector<int>& part_counts,
+                                       const decomposition::DecompositionOptions& quality) {
   const std::string hash = mesh_hash(shape.mesh);
   std::vector<DecomposedLevel> levels;
   std::vector<int> missing;
-  for (const int parts : options.part_counts) {
+  for (const int parts : part_counts) {
     DecomposedLevel level{shape.name, {}, false, 0};
-    if (auto kept = kept_level(shapes, id, hash, options.quality, parts))
+    if (auto kept = kept_level(shapes, id, hash, quality, parts))
       level.level = std::move(*kept);
     else {
       level.is_new = true;
@@ -68,7 +68,7 @@ std::vector<DecomposedLevel> levels_of(catalog::ShapeCatalog& shapes, catalog::S
   }
   if (missing.empty()) return levels;
   const auto start = std::chrono::steady_clock::now();
-  std::vector<LevelOfDetail> made = decomposition::decompose_ladder(shape.mesh, missing, options.quality);
+  std::vector<LevelOfDetail> made = decomposition::decompose_ladder(shape.mesh, missing, quality);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   for (LevelOfDetail& level : made) {
     level.provenance.source_file = shape.name;
@@ -82,6 +82,20 @@ std::vector<DecomposedLevel> levels_of(catalog::ShapeCatalog& shapes, catalog::S
       level.level = std::move(*next++);
       level.seconds = seconds;
     }
+  return levels;
+}
+
+/// Kept and new levels of one shape, cap by cap.
+std::vector<DecomposedLevel> levels_of(catalog::ShapeCatalog& shapes, catalog::ShapeId id,
+                                       const DecomposeBatchOptions& options) {
+  const catalog::ShapeRecord shape = shapes.shape(id);
+  std::vector<DecomposedLevel> levels;
+  for (const int cap : options.vertex_caps) {
+    decomposition::DecompositionOptions quality = options.quality;
+    quality.vertex_cap = cap;
+    std::vector<DecomposedLevel> ladder = ladder_of(shapes, id, shape, options.part_counts, quality);
+    std::move(ladder.begin(), ladder.end(), std::back_inserter(levels));
+  }
   return levels;
 }
 
@@ -116,15 +130,16 @@ DecomposeBatchResult decompose_shapes(catalog::ShapeCatalog& shapes, const Decom
 std::string batch_text(const DecomposeBatchResult& result) {
   std::size_t width = 5;
   for (const DecomposedLevel& row : result.levels) width = std::max(width, row.shape.size());
-  std::string text = padded("shape", width) +
-                     "  asked  parts  vertices  faces  difference_%  +-     volume_%  surface_mean_%  surface_max_%  "
-                     "seconds\n";
+  std::string text =
+      padded("shape", width) +
+      "  asked    cap  parts  vertices  faces  difference_%  +-     volume_%  surface_mean_%  surface_max_%  "
+      "seconds\n";
   for (const DecomposedLevel& row : result.levels) {
     const decomposition::LevelFigures figures = decomposition::figures(row.level.parts);
     const catalog::DecompositionError& error = row.level.error;
     char line[200];
-    std::snprintf(line, sizeof line, "  %5d  %5zu  %8d  %5d  %12.3f  %5.3f  %8.4f  %14.3f  %13.3f  ",
-                  row.level.parts_asked, row.level.parts.size(), figures.vertices, figures.faces,
+    std::snprintf(line, sizeof line, "  %5d  %5d  %5zu  %8d  %5d  %12.3f  %5.3f  %8.4f  %14.3f  %13.3f  ",
+                  row.level.parts_asked, row.level.vertex_cap, row.level.parts.size(), figures.vertices, figures.faces,
                   100 * error.symmetric_difference, 100 * error.method_error, 100 * error.volume_error,
                   100 * error.surface_mean, 100 * error.surface_max);
     char seconds[32];

@@ -13,8 +13,9 @@ namespace workflows {
 struct DecomposeBatchOptions {
   std::string catalog = "the catalogue";  // its name in messages
   std::vector<int> part_counts{1, 2, 4, 8};
-  std::string select;  // catalogue query; empty: every shape
-  decomposition::DecompositionOptions quality;
+  std::vector<int> vertex_caps{32};             // every number of parts at each of these caps
+  std::string select;                           // catalogue query; empty: every shape
+  decomposition::DecompositionOptions quality;  // its parts and vertex_cap are not used
 };
 
 /// One level of one shape, made now or kept from before.

@@ -10,6 +10,7 @@
 
 #include "catalog/input_error.h"
 #include "catalog/shape_catalog.h"
+#include "workflows/level_choice.h"
 #include "workflows/plain_name.h"
 #include "workflows/scene_place.h"
 
@@ -20,20 +21,26 @@ std::string catalogue_command(const char* action, const std::filesystem::path& c
   return "talus " + std::string(action) + " " + catalogue.string();
 }
 
-/// Vertex cap of the level to use; refuses one that is not there.
-int vertex_cap_of(const catalog::ShapeSummary& shape, const FillDescription& fill, const CatalogueShapes& asked) {
+/// Levels that the engine can hold.
+std::vector<Level> usable_levels(const catalog::ShapeSummary& shape) {
+  std::vector<Level> levels;
+  for (const Level& level : shape.levels)
+    if (level.vertex_cap <= dem_gpu::kMaxPartVertices) levels.push_back(level);
+  return levels;
+}
+
+/// Level for the number of parts asked for; refuses one that is not there.
+Level level_of_parts(const catalog::ShapeSummary& shape, const FillDescription& fill, const CatalogueShapes& asked) {
   std::set<int> caps, levels;
-  for (const auto& level : shape.levels) {
-    levels.insert(level.parts_asked);
-    if (level.parts_asked == asked.parts && level.vertex_cap <= dem_gpu::kMaxPartVertices)
-      caps.insert(level.vertex_cap);
-  }
+  for (const Level& level : shape.levels) levels.insert(level.parts_asked);
+  for (const Level& level : usable_levels(shape))
+    if (level.parts_asked == *asked.parts) caps.insert(level.vertex_cap);
   const auto listed = [](const std::set<int>& numbers) {
     std::string list;
     for (const int number : numbers) list += (list.empty() ? "" : ", ") + std::to_string(number);
     return list.empty() ? std::string("none") : list;
   };
-  const std::string parts = std::to_string(asked.parts);
+  const std::string parts = std::to_string(*asked.parts);
   if (caps.empty())
     throw catalog::InputError(
         fill.place + ": shape '" + shape.name + "' has no level of " + parts + " parts (it has: " + listed(levels) +
@@ -44,9 +51,34 @@ int vertex_cap_of(const catalog::ShapeSummary& shape, const FillDescription& fil
         " vertices, not " + std::to_string(*asked.vertex_cap) +
         "; take one of these, or make it with: " + catalogue_command("decompose", asked.catalogue) + " --parts " +
         parts + " --vertices " + std::to_string(*asked.vertex_cap));
-  if (asked.vertex_cap) return *asked.vertex_cap;
-  return *std::min_element(caps.begin(), caps.end(),
-                           [](int a, int b) { return std::abs(a - kUsualVertexCap) < std::abs(b - kUsualVertexCap); });
+  const int usual = *std::min_element(caps.begin(), caps.end(), [](int a, int b) {
+    return std::abs(a - kUsualVertexCap) < std::abs(b - kUsualVertexCap);
+  });
+  const int cap = asked.vertex_cap.value_or(usual);
+  return *std::find_if(shape.levels.begin(), shape.levels.end(), [&](const Level& level) {
+    return level.parts_asked == *asked.parts && level.vertex_cap == cap;
+  });
+}
+
+/// The cheapest level within the tolerance asked for; refuses a shape that has none.
+Level level_within(const catalog::ShapeSummary& shape, const FillDescription& fill, const CatalogueShapes& asked) {
+  const std::vector<Level> levels = usable_levels(shape);
+  if (const auto level = cheapest_level(levels, *asked.tolerance, asked.vertex_cap)) return *level;
+  std::optional<Level> best;
+  for (const Level& level : levels)
+    if ((!asked.vertex_cap || level.vertex_cap == *asked.vertex_cap) &&
+        (!best || level.error.symmetric_difference < best->error.symmetric_difference))
+      best = level;
+  char tolerance[32], text[160] = "it has no level";
+  std::snprintf(tolerance, sizeof tolerance, "%.4g %%", 100 * *asked.tolerance);
+  if (best)
+    std::snprintf(text, sizeof text, "its best, %d parts of at most %d vertices, is off by %.4g %%", best->parts_asked,
+                  best->vertex_cap, 100 * best->error.symmetric_difference);
+  const std::string vertices = asked.vertex_cap ? " of at most " + std::to_string(*asked.vertex_cap) + " vertices" : "";
+  throw catalog::InputError(
+      fill.place + ": shape '" + shape.name + "' has no level" + vertices + " within tolerance = " + tolerance + " (" +
+      text + "); allow more, or make finer ones with: " + catalogue_command("decompose", asked.catalogue) +
+      " --parts " + std::to_string(best ? 2 * best->parts_asked : 8));
 }
 
 /// 0 if the catalogue has none.
@@ -152,11 +184,11 @@ std::vector<ShapeCollector::Collected> ShapeCollector::selected(const FillDescri
     if (!is_plain_name(summary.name))
       throw catalog::InputError(fill.place + ": a shape of " + path + " is named " + shown_name(summary.name) + "; " +
                                 kPlainName);
-    const int vertex_cap = vertex_cap_of(summary, fill, shapes);
-    const std::string key =
-        path + "\n" + summary.name + "\n" + std::to_string(shapes.parts) + "\n" + std::to_string(vertex_cap);
+    const Level chosen = shapes.tolerance ? level_within(summary, fill, shapes) : level_of_parts(summary, fill, shapes);
+    const std::string key = path + "\n" + summary.name + "\n" + std::to_string(chosen.parts_asked) + "\n" +
+                            std::to_string(chosen.vertex_cap);
     if (!collected_.contains(key)) {
-      const catalog::LevelOfDetail level = catalogue.level(id, shapes.parts, vertex_cap);
+      const catalog::LevelOfDetail level = catalogue.level(id, chosen.parts_asked, chosen.vertex_cap);
       Collected collected =
           add(decomposed(summary.name, level.parts), {.name = summary.name,
                                                       .symmetric_difference = level.error.symmetric_difference,

@@ -145,7 +145,8 @@ Json fill_summary(const FillReport& report, const FillDescription& fill, const S
   if (const auto* shapes = std::get_if<CatalogueShapes>(&fill.shapes)) {
     json["shapes_from"] = shapes->catalogue.string();
     json["select"] = shapes->query;
-    json["parts"] = shapes->parts;
+    if (shapes->parts) json["parts"] = *shapes->parts;
+    if (shapes->tolerance) json["tolerance"] = *shapes->tolerance;
     json["vertices"] = shapes->vertex_cap ? Json(*shapes->vertex_cap) : Json(nullptr);
   }
   json["material"] = scene.materials[static_cast<std::size_t>(fill.material)].name;

@@ -138,7 +138,13 @@ CatalogueShapes read_catalogue_shapes(TomlTable& table, const std::filesystem::p
   CatalogueShapes shapes;
   shapes.catalogue = base_folder / table.text("shapes_from");
   shapes.query = table.text("select", "");
-  shapes.parts = static_cast<int>(table.integer("parts", 1, kMostParts));
+  if (table.has("tolerance")) {
+    if (table.has("parts")) table.refuse("tolerance", "tolerance stands beside parts: give one of them");
+    const Bounds share{0, 1, true, "more than 0, at most 100 %"};
+    shapes.tolerance = table.quantity("tolerance", Dimension::ratio, share);
+  } else {
+    shapes.parts = static_cast<int>(table.integer("parts", 1, kMostParts));
+  }
   if (table.has("vertices"))
     shapes.vertex_cap = static_cast<int>(table.integer("vertices", 4, dem_gpu::kMaxPartVertices));
   return shapes;

@@ -21,8 +21,10 @@ namespace workflows {
 struct CatalogueShapes {
   std::filesystem::path catalogue;  // found from the scene file's folder
   std::string query;                // see catalog::ShapeCatalog::select
-  int parts = 1;                    // parts asked for: 1, 2, 4, 8, ...
-  std::optional<int> vertex_cap;    // nullopt: the cap nearest to kUsualVertexCap that the catalogue has
+  std::optional<int> parts;         // parts asked for: 1, 2, 4, 8, ...; nullopt: by tolerance
+  std::optional<double> tolerance;  // else: the cheapest level of at most this symmetric difference [-]
+  std::optional<int> vertex_cap;    // nullopt: the cap nearest to kUsualVertexCap that the catalogue has; by tolerance
+                                    // any
 };
 inline constexpr int kUsualVertexCap = 32;
 

@@ -172,11 +172,14 @@ ShapeSummary read_summary(const Database& database, ShapeId id) {
   summary.descriptors = read_descriptors(database, id);
   for (const Check& check : read_checks(database, id))
     if (!check.passed) summary.failed_checks.push_back(check.name);
-  Statement level(database, std::string("SELECT parts_asked, part_count, vertex_cap, ") + kErrorColumns +
-                                " FROM levels WHERE shape_id = ? ORDER BY parts_asked, vertex_cap");
+  Statement level(database, std::string("SELECT parts_asked, part_count, vertex_cap, "
+                                        "(SELECT total(vertex_count) FROM parts WHERE level_id = levels.id), "
+                                        "(SELECT total(face_count) FROM parts WHERE level_id = levels.id), ") +
+                                kErrorColumns + " FROM levels WHERE shape_id = ? ORDER BY parts_asked, vertex_cap");
   for (level.bind(id); level.step();)
     summary.levels.push_back({static_cast<int>(level.integer(0)), static_cast<int>(level.integer(1)),
-                              static_cast<int>(level.integer(2)), error_at(level, 3)});
+                              static_cast<int>(level.integer(2)), static_cast<int>(level.integer(3)),
+                              static_cast<int>(level.integer(4)), error_at(level, 5)});
   return summary;
 }
 

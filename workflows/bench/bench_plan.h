@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -64,7 +65,8 @@ struct BenchPlan {
 };
 
 struct BenchOptions {
-  std::vector<int> threads;  // counts to compare, where a bench runs the engine's threads
+  std::vector<int> threads;         // counts to compare, where a bench runs the engine's threads
+  std::filesystem::path catalogue;  // of shapes, where a bench measures them
 };
 
 }  // namespace workflows

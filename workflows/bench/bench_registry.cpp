@@ -14,6 +14,8 @@ const std::vector<Bench>& benches() {
       {"impacts", "sphere impacts of Chung & Ooi (2011), tests 1-8, beside exact and published values",
        plan_impacts_bench},
       {"laws", "contact laws: energy round closed paths, cuts into parts, stiffness exponents", plan_laws_bench},
+      {"levels", "levels of detail of a catalogue (--catalog FILE): error against the cost of a contact",
+       plan_levels_bench},
       {"overlap", "overlap integrals: error against closed forms, time per pair", plan_overlap_bench},
       {"pile", "300 mixed grains settling: speed, energy balance, overlap, threads", plan_pile_bench},
       {"walls", "a drum as a cylinder and as 64 and 512 flat segments: torque and work", plan_walls_bench},

@@ -82,6 +82,10 @@ TEST(DecomposeStage, KeepsWhatIsCurrentAndRemakesWhatIsNot) {
   EXPECT_EQ(made_new(), 0);
   options.part_counts = {1, 2, 4};
   EXPECT_EQ(made_new(), 1);
+  options.vertex_caps = {16, 32};
+  EXPECT_EQ(made_new(), 3) << "a ladder of its own for the new cap";
+  EXPECT_EQ(shapes.summary(*shapes.find("cube")).levels.size(), 6u);
+  options.vertex_caps = {32};
   options.quality.seed = 5;
   EXPECT_EQ(made_new(), 3);
   catalog::ShapeRecord other = shape("cube", solids::box({0, 0, 0}, {1, 1, 2}));

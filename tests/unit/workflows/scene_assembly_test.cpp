@@ -85,6 +85,7 @@ TEST_F(SceneAssembly, EveryShapeIsUsedEquallyAndSizesFollowTheTable) {
   for (const auto& [shape, count] : uses) EXPECT_EQ(count, 4);
   EXPECT_NEAR(passing(assembled.fills[0].realised, 10e-3, SizeBasis::mass), 0.5, 0.15);  // one of twelve grains
   EXPECT_EQ(assembled.shapes[0].parts, 2);
+  EXPECT_EQ(assemble(scene_from_catalogue("tolerance = \"20 %\"")).shapes[0].parts, 2) << "off by 14.3 %";
   EXPECT_EQ(assembled.catalogues.size(), 1u);
   EXPECT_EQ(assembled.catalogues[0].sha256, catalog::sha256_of_file(folder_ / "ore.talus"));
 }
@@ -125,6 +126,14 @@ TEST_F(SceneAssembly, RefusesWithPlaceAndRemedy) {
   expect_refusal(scene_from_catalogue("parts = 8"),
                  fill + "shape 'flint' has no level of 8 parts (it has: 2); make it with: talus decompose");
   expect_refusal(scene_from_catalogue("parts = 2\nvertices = 16"), "at most 64 vertices, not 16");
+  expect_refusal(scene_from_catalogue("parts = 2\ntolerance = \"2 %\""), "tolerance stands beside parts");
+  expect_refusal(scene_from_catalogue("tolerance = \"101 %\""), "at most 100 %");
+  expect_refusal(scene_from_catalogue("tolerance = \"10 %\""),
+                 fill +
+                     "shape 'flint' has no level within tolerance = 10 % (its best, 2 parts of at most 64 vertices, "
+                     "is off by 14.29 %); allow more, or make finer ones with: talus decompose");
+  expect_refusal(scene_from_catalogue("tolerance = \"20 %\"\nvertices = 16"),
+                 "no level of at most 16 vertices within tolerance = 20 % (it has no level)");
   expect_refusal(with(scene_from_catalogue("parts = 2"), "ore.talus", "none.talus"), "none.talus");
   expect_refusal(with(test_support::drum_scene(), "count = 12", "count = 4000"), fill + "the region holds ");
   expect_refusal(with(test_support::drum_scene(), "radius = \"10 cm\"", "radius = \"5 cm\""), "into wall \"shell\"");

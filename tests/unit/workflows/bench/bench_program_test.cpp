@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "catalog/shape_catalog.h"
+#include "tests/support/sample_shapes.h"
 #include "tests/support/temporary_folder.h"
 #include "workflows/bench/bench_registry.h"
 
@@ -60,6 +62,25 @@ TEST(BenchProgram, NoNameOrAWrongOptionIsAUsageErrorAndHelpIsNot) {
   EXPECT_EQ(run_bench(folder, "").status, 2);
   EXPECT_EQ(run_bench(folder, "overlap --threads none").status, 2);
   EXPECT_EQ(run_bench(folder, "--help").status, 0);
+}
+
+TEST(BenchProgram, LevelsOfACatalogue) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_bench(folder, "levels").status, 2);
+  const auto file = folder / "ore.talus";
+  {
+    catalog::ShapeCatalog catalogue(file, catalog::ShapeCatalog::Access::read_write);
+    const catalog::ShapeRecord flint = test_support::sample_shape("flint");
+    const catalog::ShapeId id = catalogue.store_shape(flint);
+    EXPECT_EQ(run_bench(folder, "levels --catalog '" + file.string() + "'").status, 3) << "no levels yet";
+    catalogue.store_levels(id, {test_support::sample_level(flint, 2)});
+  }
+  const Ended ended =
+      run_bench(folder, "levels --catalog '" + file.string() + "' --out '" + folder.path().string() + "'");
+  EXPECT_EQ(ended.status, 0) << ended.error;
+  EXPECT_NE(ended.out.find("flint-64"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("2 parts: time of a contact over that of cubes"), std::string::npos);
+  EXPECT_NE(read_bytes(folder / "levels_front.svg").find("flint, 64 vertices"), std::string::npos);
 }
 
 TEST(BenchProgram, JsonLinesHaveTheAgreedFieldsAndTheCommandGivesTheFigureAlone) {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "catalog/shape_catalog.h"
+
+namespace workflows {
+
+using Level = catalog::ShapeSummary::Level;
+
+/// What the engine pays for a contact of such bodies, in contacts of cubes [-].
+double contact_cost(const Level& level);
+
+/// For each level whether no other is at most as dear and at most as wrong (symmetric difference): the curve of cost
+/// against error.
+std::vector<bool> on_front(const std::vector<Level>& levels);
+
+/// The cheapest level whose symmetric difference is at most `tolerance` [-]; with `vertex_cap` among those of that cap.
+std::optional<Level> cheapest_level(const std::vector<Level>& levels, double tolerance, std::optional<int> vertex_cap);
+
+}  // namespace workflows
