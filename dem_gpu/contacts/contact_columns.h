@@ -66,7 +66,7 @@ struct ContactColumns {
 
   // With a ledger.
   DeviceVector<Real> elastic_work;           // recoverable, done against the elastic normal force since touch [J]
-  DeviceVector<Real> orbit_loss;             // with spheres: to the dashpot in the step to come [J]
+  DeviceVector<Real> orbit_loss;             // with spheres: to the dashpot since touch [J]
   DeviceVector<Real> tangential_energy;      // in the tangential spring [J]
   DeviceVector<Real> loss_normal;            // dissipated since last read [J]
   DeviceVector<Real> loss_shear;             // [J]

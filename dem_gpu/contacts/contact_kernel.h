@@ -81,20 +81,26 @@ struct ComputeContact {
     if (!is_touching && scene.contacts.depth[c] == 0) return;
     const ContactSide side_a = body_side(scene.bodies, a);
     const ContactSide side_b = other_side(b);
-    if (!is_touching) {
-      end_contact<typename Geometry::Damping, Friction, Record>(scene.contacts, c, side_a, side_b, scene.step.length);
-      return;
-    }
-    const int material_a = scene.bodies.material[a];
-    const Real diameter_a = scene.bodies.diameter[a];
-    if constexpr (Geometry::Partner::kIsWall)
-      respond<typename Geometry::Damping, Friction, Record>(scene.contacts, c, elastic, side_a, side_b,
-                                                            scene.pair(material_a, scene.walls[b].material), friction,
-                                                            patch, scene.step, diameter_a);
+    const PairProperties& pair = scene.pair(scene.bodies.material[a], other_material(b));
+    if (is_touching)
+      respond<typename Geometry::Damping, Friction, Record>(scene.contacts, c, elastic, side_a, side_b, pair, friction,
+                                                            patch, scene.step, smaller_diameter(a, b));
     else
-      respond<typename Geometry::Damping, Friction, Record>(
-          scene.contacts, c, elastic, side_a, side_b, scene.pair(material_a, scene.bodies.material[b]), friction, patch,
-          scene.step, std::min(diameter_a, scene.bodies.diameter[b]));
+      end_contact<typename Geometry::Damping, Friction, Record>(scene.contacts, c, side_a, side_b, scene.step.length,
+                                                                pair.sphere_damping > 0);
+  }
+
+  TALUS_HD int other_material(int b) const {
+    if constexpr (Geometry::Partner::kIsWall)
+      return scene.walls[b].material;
+    else
+      return scene.bodies.material[b];
+  }
+  TALUS_HD Real smaller_diameter(int a, int b) const {
+    if constexpr (Geometry::Partner::kIsWall)
+      return scene.bodies.diameter[a];
+    else
+      return std::min(scene.bodies.diameter[a], scene.bodies.diameter[b]);
   }
 
   TALUS_HD ContactSide other_side(int b) const {

@@ -28,6 +28,10 @@ struct ContactSide {
   TALUS_HD Vec3 mean_velocity_at(const Vec3& x) const {
     return mean_velocity + cross(mean_angular_velocity, x - centre);
   }
+  /// Where x was a point of it as the step of this length began: what was applied there did its work at this velocity.
+  TALUS_HD Vec3 mean_velocity_at_start(const Vec3& x, Real step) const {
+    return mean_velocity + cross(mean_angular_velocity, x - (centre - step * mean_velocity));
+  }
   /// 1 / mass that an impulse along n at x meets [1/kg].
   TALUS_HD Real inverse_effective_mass(const Vec3& x, const Vec3& n) const {
     const Vec3 arm = transpose_times(rotation, cross(x - centre, n));
@@ -91,12 +95,17 @@ TALUS_HD StepWork step_work(const ContactView& contacts, int c, const ElasticCon
   work.elastic = half * (dot(force, a.mean_velocity) +
                          dot(contacts.last_elastic_torque_a[c] + elastic.torque_a, a.mean_angular_velocity)) +
                  on_b;
-  const Vec3 velocity_a = a.mean_velocity_at(elastic.point), velocity_b = b.mean_velocity_at(elastic.point);
-  const Vec3 damping = contacts.last_damping_force[c] + forces.damping;
-  const Vec3 friction = contacts.last_friction_force[c] + forces.friction.force;
-  work.damping = half * dot(damping, velocity_a - velocity_b);
-  work.friction = half * dot(friction, velocity_a - velocity_b);
-  work.by_wall = -on_b + half * dot(damping + friction, velocity_b);
+  // The contact point moves: as an edge becomes a face, by much of the body's size in a few steps.
+  const Vec3 last = contacts.point[c];
+  const Vec3 velocity_b = b.mean_velocity_at(elastic.point),
+             last_velocity_b = b.mean_velocity_at_start(last, time_step);
+  const Vec3 slip = a.mean_velocity_at(elastic.point) - velocity_b;
+  const Vec3 last_slip = a.mean_velocity_at_start(last, time_step) - last_velocity_b;
+  const Vec3 last_damping = contacts.last_damping_force[c], last_friction = contacts.last_friction_force[c];
+  work.damping = half * (dot(last_damping, last_slip) + dot(forces.damping, slip));
+  work.friction = half * (dot(last_friction, last_slip) + dot(forces.friction.force, slip));
+  work.by_wall = -on_b + half * (dot(last_damping + last_friction, last_velocity_b) +
+                                 dot(forces.damping + forces.friction.force, velocity_b));
   if constexpr (Friction::kHasCouple) {
     const Vec3 couple = contacts.last_friction_couple[c] + forces.friction.couple;
     work.friction += half * dot(couple, a.mean_angular_velocity - b.mean_angular_velocity);
@@ -116,25 +125,34 @@ TALUS_HD inline void record_work(const ContactView& contacts, int c, const StepW
   if (is_wall) contacts.wall_work[c] += work.by_wall;
 }
 
-/// A contact on its orbit has the stored energy of its depth and has lost what the dashpot took on the orbit: where
-/// the steps led the bodies elsewhere, it shows as imbalance.
-TALUS_HD inline void record_orbit(const ContactView& contacts, int c, const NormalDamping& normal, Real energy) {
-  contacts.loss_normal[c] += contacts.orbit_loss[c];
-  contacts.orbit_loss[c] = normal.loss;
-  if (normal.is_orbit) contacts.elastic_work[c] = energy;
+/// A contact on its orbit stores the energy of its depth; what else its force took is the dashpot's. `stored_before`:
+/// at the end of the last step [J].
+TALUS_HD inline void record_orbit(const ContactView& contacts, int c, const StepWork& work, Real stored_before,
+                                  Real energy) {
+  const Real loss = stored_before - energy - work.elastic;
+  contacts.elastic_work[c] = energy;
+  contacts.loss_normal[c] += loss;
+  contacts.orbit_loss[c] += loss;
 }
 
 /// No force this step; the history ends.
 template <class Damping, class Friction, class Record>
 TALUS_HD void end_contact(const ContactView& contacts, int c, const ContactSide& a, const ContactSide& b,
-                          Real time_step) {
+                          Real time_step, [[maybe_unused]] bool is_damped) {
   if (contacts.depth[c] == 0) return;
   if constexpr (Record::kEnabled) {
     ElasticContact none;
     none.point = contacts.point[c];
     const StepWork work = step_work<Friction>(contacts, c, none, Vec3{}, ContactForces{}, a, b, time_step);
+    [[maybe_unused]] const Real stored_before = contacts.elastic_work[c];
     record_work(contacts, c, work, 0, false, is_wall_kind(key_kind(contacts.key[c])));
-    if constexpr (Damping::kHasOrbit) record_orbit(contacts, c, NormalDamping{}, 0);
+    if constexpr (Damping::kHasOrbit)
+      if (is_damped) {
+        record_orbit(contacts, c, work, stored_before, 0);
+        // A dashpot gives nothing: what it seems to have given shows as imbalance.
+        if (contacts.orbit_loss[c] < 0) contacts.loss_normal[c] -= contacts.orbit_loss[c];
+        contacts.orbit_loss[c] = 0;
+      }
     contacts.last_elastic_force[c] = contacts.last_elastic_torque_a[c] = contacts.last_elastic_torque_b[c] = Vec3{};
     contacts.last_damping_force[c] = contacts.last_friction_force[c] = Vec3{};
     if constexpr (Friction::kHasCouple) contacts.last_friction_couple[c] = Vec3{};
@@ -227,8 +245,10 @@ TALUS_HD void respond(const ContactView& contacts, int c, ElasticContact& elasti
   if constexpr (Record::kEnabled) {
     const Vec3 torque_b = elastic_torque_on_b(elastic, a, b);
     const StepWork work = step_work<Friction>(contacts, c, elastic, torque_b, forces, a, b, step.length);
+    [[maybe_unused]] const Real stored_before = contacts.elastic_work[c];
     record_work(contacts, c, work, forces.friction.energy, true, is_wall_kind(key_kind(contacts.key[c])));
-    if constexpr (Damping::kHasOrbit) record_orbit(contacts, c, forces.normal, elastic.energy);
+    if constexpr (Damping::kHasOrbit)
+      if (forces.normal.is_orbit) record_orbit(contacts, c, work, stored_before, elastic.energy);
     contacts.last_elastic_force[c] = elastic.force;
     contacts.last_elastic_torque_a[c] = elastic.torque_a;
     contacts.last_elastic_torque_b[c] = torque_b;

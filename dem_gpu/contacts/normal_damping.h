@@ -18,7 +18,6 @@ namespace dem_gpu {
 struct NormalDamping {
   Real force = 0;         // beside the elastic force, positive when repulsive [N]
   bool is_orbit = false;  // the elastic force has the dashpot's in it: over a whole step the two are one mean force
-  Real loss = 0;          // then: to the dashpot, until the end of the step to come [J]
 };
 
 /// Depth of a contact that has just begun over the way of approach in a step, at most. Above 1 by the turn of the
@@ -105,7 +104,7 @@ struct OrbitDamping {
     contacts.owed_kick[c] = orbit.kick - kick;
     elastic.force = -mass * (owed + kick) / step * elastic.normal;
     if (damping == 0) return {};
-    return {0, true, mass * orbit.dissipated(duration)};
+    return {0, true};
   }
 
   TALUS_HD static void forget(const ContactView& contacts, int c) { contacts.owed_kick[c] = 0; }

@@ -28,12 +28,6 @@ struct NormalAcceleration {
   TALUS_HD Real operator()(Real depth, Real speed) const {
     return std::max(unclamped(depth, speed), Real(0)) - adhesion;
   }
-  /// Stored energy over effective mass [m2/s2].
-  TALUS_HD Real energy(Real depth) const {
-    if (!(depth > 0)) return 0;
-    const Real r = depth / depth0;
-    return depth * (is_hertz ? Real(0.4) * elastic * r * std::sqrt(r) : Real(0.5) * elastic * r) - depth * adhesion;
-  }
 };
 
 /// Motion of two bodies along the normal of their contact over one step, integrated in sub-steps, so that where in the
@@ -77,15 +71,6 @@ struct NormalOrbit {
     }
     kick = point.kick;
     shift = point.shift;
-  }
-
-  /// Energy over effective mass that the dashpot has taken after `duration`, as `advance` went: what is missing from
-  /// the speed, the stored energy and the work of all else [m2/s2].
-  TALUS_HD Real dissipated(Real duration) const {
-    const Point end{kick, shift};
-    const Real end_speed = speed(duration, end), end_depth = depth(duration, end);
-    return (start_speed * start_speed - end_speed * end_speed) / 2 + acceleration * (end_depth - start_depth) +
-           force.energy(start_depth) - force.energy(end_depth);
   }
 
  private:

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+
 #include "dem_gpu/contacts/contact_patch.h"
 #include "dem_gpu/contacts/elastic_contact.h"
 #include "dem_gpu/contacts/restitution_damping.h"
@@ -47,8 +49,11 @@ struct FrictionContact {
   RelativeMotion predicted{};  // for the end of the step: damping
   Vec3 mean_spin{};            // mean angular velocity of a and b over the step [rad/s]
 
-  /// Normal force on a, damping included, without adhesion: what presses the surfaces together [N].
-  TALUS_HD Real normal_load() const { return damping + elastic.adhesion - dot(elastic.force, elastic.normal); }
+  /// Normal force on a, damping included, without adhesion: what presses the surfaces together [N]. Not negative: the
+  /// mean force over a step of a contact on its orbit may pull, to make up for the step before.
+  TALUS_HD Real normal_load() const {
+    return std::max(Real(0), damping + elastic.adhesion - dot(elastic.force, elastic.normal));
+  }
 };
 
 /// Friction on a; b gets the opposite.
