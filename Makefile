@@ -78,4 +78,4 @@ check-format:  ## Fail if a source file is not formatted
 	git ls-files '*.cpp' '*.h' | xargs clang-format --dry-run -Werror
 
 clean:  ## Remove the build folders (not the demo's results)
-	rm -rf $(BUILD) build-dem-cpu build-dem-cuda build-asan
+	rm -rf $(BUILD) build-dem-cpu build-dem-cpu-mixed build-dem-tbb build-dem-cuda build-asan

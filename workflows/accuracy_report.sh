@@ -40,8 +40,13 @@ bench_tables() {
   mkdir -p "$2"
   for bench in $3; do
     echo "accuracy_report: $(basename "$1"): talus bench $bench" >&2
-    "$1/bin/talus" bench "$bench" --json "$work/$bench.json" --out "$2" >/dev/null || [ $? = 4 ]
+    status=0
+    "$1/bin/talus" bench "$bench" --json "$work/$bench.json" --out "$2" >/dev/null || status=$?
     echo
+    if [ "$status" -ne 0 ] && [ "$status" -ne 4 ]; then
+      echo "**\`talus bench $bench\` ended with status $status**"
+      continue
+    fi
     sed 's/^# /### /' "$2/$bench.md"
     rm "$2/$bench.md"
     for plot in "$2/${bench}"_*.svg; do

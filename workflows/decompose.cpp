@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <stdexcept>
 
@@ -34,6 +35,17 @@ void declare_options(CLI::App& app, CommandLine& line) {
       ->delimiter(',')
       ->check(CLI::Range(8, 64))
       ->capture_default_str();
+  app.add_option("--faces", quality.face_cap,
+                 "most faces a part, faces in one plane counted as one, 8 to 124; 0: no cap")
+      ->check(CLI::Range(8, 124) | CLI::IsMember({0}));
+  const std::map<std::string, decomposition::FitMode> modes{{"volume-true", decomposition::FitMode::volume_true},
+                                                            {"enclosing", decomposition::FitMode::enclosing},
+                                                            {"inscribed", decomposition::FitMode::inscribed}};
+  app.add_option("--mode", quality.mode, "volume-true (the mesh's volume), enclosing (nothing missing), inscribed")
+      ->transform(CLI::CheckedTransformer(modes));
+  app.add_option("--time-budget", quality.time_budget,
+                 "CPU seconds a shape for looking for cuts; the result then depends on the machine; 0: by --effort")
+      ->check(CLI::Range(0.0, 1e6));
   app.add_option("--seed", quality.seed, "of the random numbers; the same seed gives the same bytes")
       ->capture_default_str();
   app.add_option("--effort", quality.effort, "more looks for better cuts, time in proportion")

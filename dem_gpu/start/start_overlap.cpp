@@ -47,7 +47,8 @@ std::string name_of_partner(const Scene& scene, const StartPair& pair) {
                             "are meant to spring apart");
 }
 
-/// Bodies with one and the same middle push each other nowhere, so no contact shows them.
+/// Bodies with about one and the same middle push each other nowhere, and their surfaces may lie in one another: no
+/// depth shows them.
 void refuse_concentric(const Model& model, const StartPair& pair) {
   const Scene& scene = model.scene;
   const Body &a = scene.bodies[pair.a], &b = scene.bodies[pair.b];
@@ -66,7 +67,6 @@ void refuse_concentric(const Model& model, const StartPair& pair) {
   refuse(scene, pair, text);
 }
 
-/// The pair alone, at rest, without gravity, damping and friction; b, or the wall, stays and a is moved by `shift`.
 /// The wall of a pair as it meets bodies among all others.
 Wall wall_alone(const Model& model, int index) {
   Wall wall = model.scene.walls[index];
@@ -77,6 +77,7 @@ Wall wall_alone(const Model& model, int index) {
   return wall;
 }
 
+/// The pair alone, at rest, without gravity, damping and friction; b, or the wall, stays and a is moved by `shift`.
 Scene scene_of(const Model& model, const StartPair& pair, const Vec3& shift) {
   const Scene& scene = model.scene;
   Scene alone;
@@ -160,7 +161,7 @@ void refuse_deep_start(const Model& model, const State& state) {
                     double(depth[c]), double(100 * depth[c] / thinner), double(100 * scene.run.largest_start_overlap));
       refuse(scene, pair, text);
     }
-    if (depth[c] == 0 && pair.kind == ContactKind::polyhedron_polyhedron &&
+    if (pair.kind == ContactKind::polyhedron_polyhedron &&
         norm(scene.bodies[pair.a].position - scene.bodies[pair.b].position - pair.shift_b) < thinner / 2)
       refuse_concentric(model, pair);
   }

@@ -42,7 +42,7 @@ Scene pile_scene() {
                   dem_gpu::polyhedral_shape("L", std::get<dem_gpu::PolyhedralShape>(l.geometry).parts),
                   dem_gpu::sphere_shape("sphere", 0.4 * kSize)};
   constexpr int kAcross = 6;
-  const double pitch = 1.25 * kSize;
+  const double pitch = 1.45 * kSize;  // more than the diagonal of the boxes
   std::mt19937_64 random(300);
   for (int i = 0; i < kGrains; ++i) {
     dem_gpu::Body body;

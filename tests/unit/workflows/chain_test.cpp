@@ -150,6 +150,21 @@ start = [0, 0, "1 m"]
 hold_first = true
 )";
 
+TEST(RingShape, TwoInOnePlaceAreRefused) {
+  // All surfaces lie in one another, so that the depth is rounding or next to nothing.
+  for (const double shift : {0.0, 1e-4}) {
+    Scene scene = test_support::empty_scene(0.5, 0.5);
+    scene.shapes = {link()};
+    scene.bodies = {test_support::body_at(0, {}), test_support::body_at(0, {shift, 0, 0})};
+    try {
+      Simulation simulation(scene);
+      ADD_FAILURE() << "accepted at " << shift;
+    } catch (const catalog::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("one about the other's middle"), std::string::npos) << error.what();
+    }
+  }
+}
+
 TEST(ChainScene, IsReadAndAssembled) {
   const AssembledScene assembled = assemble_scene(read_scene_text(kChainScene, "chain.toml", "."));
   EXPECT_EQ(assembled.scene.bodies.size(), 6u);
