@@ -54,7 +54,7 @@ bool moves_cuts_at(int count) { return count == 2 || count == 4 || count == 16; 
 }  // namespace
 
 LevelSearch::LevelSearch(const catalog::TriangleMesh& mesh, const DecompositionOptions& options)
-    : options_(options), solid_(mesh, kFieldCells), coarse_(mesh, kSearchCells), started_(cpu_seconds()) {
+    : options_(options), solid_(mesh, kFieldCells), coarse_(solid_, kSearchCells), started_(cpu_seconds()) {
   columns_volume_ = solid_.volume_inside({});
   plan_.directions = std::max(4, static_cast<int>(std::lround(kDirections * std::fmin(1.0, options.effort))));
   plan_.refits = std::max(2, static_cast<int>(std::lround(kRefits * std::fmin(1.0, options.effort))));

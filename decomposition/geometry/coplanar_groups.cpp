@@ -42,7 +42,7 @@ std::vector<std::array<int, 3>> face_neighbours(const std::vector<std::array<int
 }
 
 CoplanarGroups coplanar_groups(const std::vector<Vec3>& vertices, const std::vector<std::array<int, 3>>& faces,
-                               double tolerance) {
+                               double tolerance, int most) {
   const std::vector<std::array<int, 3>> neighbours = face_neighbours(faces);
   std::vector<Vec3> area(faces.size());
   for (std::size_t f = 0; f < faces.size(); ++f) area[f] = area_vector(vertices, faces[f]);
@@ -57,6 +57,7 @@ CoplanarGroups coplanar_groups(const std::vector<Vec3>& vertices, const std::vec
   for (const int seed : order) {
     const auto s = static_cast<std::size_t>(seed);
     if (groups.group_of[s] >= 0) continue;
+    if (groups.count() > most) break;
     const double size = norm(area[s]);
     Plane plane{size > 0 ? (1 / size) * area[s] : Vec3{0, 0, 1}, 0};
     plane.offset = dot(plane.normal, vertices[static_cast<std::size_t>(faces[s][0])]);

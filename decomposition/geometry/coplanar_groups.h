@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <vector>
 
 #include "decomposition/geometry/vector3.h"
@@ -17,9 +18,9 @@ struct CoplanarGroups {
 };
 
 /// Grows groups from the largest triangles over shared edges while all corners stay within `tolerance` [m] of the first
-/// triangle's plane and the normals agree.
+/// triangle's plane and the normals agree. Stops, with faces left in no group (-1), once there are more than `most`.
 CoplanarGroups coplanar_groups(const std::vector<Vec3>& vertices, const std::vector<std::array<int, 3>>& faces,
-                               double tolerance);
+                               double tolerance, int most = std::numeric_limits<int>::max());
 
 /// Face on the other side of each edge (edge k runs from corner k to k + 1), -1 where there is none.
 std::vector<std::array<int, 3>> face_neighbours(const std::vector<std::array<int, 3>>& faces);

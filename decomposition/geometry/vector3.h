@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -49,14 +50,15 @@ inline void plane_axes(const Vec3& normal, Vec3& u, Vec3& v) {
 struct Box {
   Vec3 low, high;
   double diagonal() const { return norm(high - low); }
+  void extend(const Vec3& p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
 };
 
 inline Box bounding_box(const std::vector<Vec3>& points) {
   Box box{points.front(), points.front()};
-  for (const Vec3& p : points) {
-    box.low = {std::fmin(box.low.x, p.x), std::fmin(box.low.y, p.y), std::fmin(box.low.z, p.z)};
-    box.high = {std::fmax(box.high.x, p.x), std::fmax(box.high.y, p.y), std::fmax(box.high.z, p.z)};
-  }
+  for (const Vec3& p : points) box.extend(p);
   return box;
 }
 

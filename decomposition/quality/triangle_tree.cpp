@@ -41,8 +41,6 @@ double squared_distance(const Vec3& p, const std::array<Vec3, 3>& triangle) {
                    squared_distance_to_segment(p, c, a)});
 }
 
-Box box_of(const std::array<Vec3, 3>& triangle) { return bounding_box({triangle.begin(), triangle.end()}); }
-
 }  // namespace
 
 TriangleTree::TriangleTree(std::vector<std::array<Vec3, 3>> triangles) : triangles_(std::move(triangles)) {
@@ -54,11 +52,9 @@ TriangleTree::TriangleTree(std::vector<std::array<Vec3, 3>> triangles) : triangl
 
 void TriangleTree::split(std::size_t node, int first, int count) {
   const auto begin = triangles_.begin() + first;
-  Box box = box_of(*begin);
-  for (auto t = begin; t != begin + count; ++t) {
-    const Box own = box_of(*t);
-    box = bounding_box({box.low, box.high, own.low, own.high});
-  }
+  Box box{begin->front(), begin->front()};
+  for (auto t = begin; t != begin + count; ++t)
+    for (const Vec3& corner : *t) box.extend(corner);
   nodes_[node].box = box;
   if (count <= kLeafSize) {
     nodes_[node].first = first;

@@ -2,6 +2,8 @@
 #include "decomposition/solid/solid.h"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "catalog/mass_properties.h"
 #include "decomposition/geometry/coplanar_groups.h"
@@ -31,14 +33,25 @@ ZInterval clip_to_cell(const std::vector<Plane>& cell, double x, double y, ZInte
 
 }  // namespace
 
-Solid::Solid(const catalog::TriangleMesh& mesh, double cell_count) : faces_(mesh.faces) {
-  vertices_.reserve(mesh.vertices.size());
-  for (const catalog::Point& p : mesh.vertices) vertices_.push_back(to_vec3(p));
-  volume_ = catalog::volume_moments(mesh).volume;
-  const Box box = bounding_box(vertices_);
-  diagonal_ = box.diagonal();
+std::shared_ptr<const Solid::Surface> Solid::surface_of(const catalog::TriangleMesh& mesh) {
+  auto surface = std::make_shared<Surface>();
+  surface->faces = mesh.faces;
+  surface->vertices.reserve(mesh.vertices.size());
+  for (const catalog::Point& p : mesh.vertices) surface->vertices.push_back(to_vec3(p));
+  surface->volume = catalog::volume_moments(mesh).volume;
+  surface->diagonal = bounding_box(surface->vertices).diagonal();
+  find_facets(*surface);
+  return surface;
+}
+
+Solid::Solid(const catalog::TriangleMesh& mesh, double cell_count) : Solid(surface_of(mesh), cell_count) {}
+
+Solid::Solid(const Solid& other, double cell_count) : Solid(other.surface_, cell_count) {}
+
+Solid::Solid(std::shared_ptr<const Surface> surface, double cell_count) : surface_(std::move(surface)) {
+  const Box box = bounding_box(vertices());
   const Vec3 size = box.high - box.low;
-  cell_ = std::fmax(std::cbrt(size.x * size.y * size.z / cell_count), diagonal_ / kMostCellsAlong);
+  cell_ = std::fmax(std::cbrt(size.x * size.y * size.z / cell_count), diagonal() / kMostCellsAlong);
   cells_per_length_ = 1 / cell_;
   const auto cells = [&](double length) { return static_cast<int>(std::ceil(length / cell_)) + 2 * kPadding; };
   nx_ = cells(size.x);
@@ -47,37 +60,38 @@ Solid::Solid(const catalog::TriangleMesh& mesh, double cell_count) : faces_(mesh
   const Vec3 middle = 0.5 * (box.low + box.high);
   origin_ = middle - (0.5 * cell_) * Vec3{double(nx_), double(ny_), double(nz_)};
   rays_ = {origin_.x, origin_.y, cell_ / 2, 2 * nx_, 2 * ny_, {}, {}};
-  columns_ = intersect(rays_, vertices_, faces_);
+  columns_ = intersect(rays_, vertices(), faces());
   fill_field();
-  find_facets();
 }
 
-void Solid::find_facets() {
-  const CoplanarGroups groups = coplanar_groups(vertices_, faces_, kCoplanar * diagonal_);
-  is_faceted_ = groups.count() <= kMostFacets;
-  if (!is_faceted_) return;
-  const std::vector<std::array<int, 3>> neighbours = face_neighbours(faces_);
+void Solid::find_facets(Surface& surface) {
+  const auto& [vertices, faces] = std::tie(surface.vertices, surface.faces);
+  const double diagonal = surface.diagonal;
+  const CoplanarGroups groups = coplanar_groups(vertices, faces, kCoplanar * diagonal, kMostFacets);
+  surface.is_faceted = groups.count() <= kMostFacets;
+  if (!surface.is_faceted) return;
+  const std::vector<std::array<int, 3>> neighbours = face_neighbours(faces);
   std::vector<char> is_wanted(groups.planes.size(), 0);
-  for (std::size_t f = 0; f < faces_.size(); ++f)
+  for (std::size_t f = 0; f < faces.size(); ++f)
     for (std::size_t k = 0; k < 3; ++k) {
       if (neighbours[f][k] < 0) continue;
       const auto next = static_cast<std::size_t>(neighbours[f][k]);
       const auto group = static_cast<std::size_t>(groups.group_of[f]);
       // Re-entrant: the neighbour rises above this face's plane.
-      const bool rises = std::any_of(faces_[next].begin(), faces_[next].end(), [&](int v) {
-        return groups.planes[group].signed_distance(vertices_[static_cast<std::size_t>(v)]) > kReentrant * diagonal_;
+      const bool rises = std::any_of(faces[next].begin(), faces[next].end(), [&](int v) {
+        return groups.planes[group].signed_distance(vertices[static_cast<std::size_t>(v)]) > kReentrant * diagonal;
       });
       if (!rises) continue;
       is_wanted[group] = 1;
-      reentrant_edges_.push_back({vertices_[static_cast<std::size_t>(faces_[f][k])],
-                                  vertices_[static_cast<std::size_t>(faces_[f][(k + 1) % 3])]});
+      surface.reentrant_edges.push_back(
+          {vertices[static_cast<std::size_t>(faces[f][k])], vertices[static_cast<std::size_t>(faces[f][(k + 1) % 3])]});
     }
   std::vector<std::size_t> order;
   for (std::size_t g = 0; g < is_wanted.size(); ++g)
     if (is_wanted[g]) order.push_back(g);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return groups.areas[a] > groups.areas[b]; });
-  for (const std::size_t g : order) facet_planes_.push_back(groups.planes[g]);
+  for (const std::size_t g : order) surface.facet_planes.push_back(groups.planes[g]);
 }
 
 void Solid::fill_field() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "catalog/triangle_mesh.h"
@@ -23,6 +24,8 @@ class Solid {
  public:
   /// `mesh` has passed check_closed_solid. `cell_count`: of the occupancy field, about.
   Solid(const catalog::TriangleMesh& mesh, double cell_count);
+  /// The same solid, its surface shared, with another number of cells.
+  Solid(const Solid& other, double cell_count);
 
   /// Share of the neighbourhood of p that is filled, 0 to 1, trilinear between cell centres.
   double occupancy(const Vec3& p) const {
@@ -53,20 +56,20 @@ class Solid {
     return (low + fy * (high - low)) * (1 / 255.0f);
   }
 
-  const std::vector<Vec3>& vertices() const { return vertices_; }
-  const std::vector<catalog::Triangle>& faces() const { return faces_; }
-  double volume() const { return volume_; }      // exact, by signed tetrahedra
-  double diagonal() const { return diagonal_; }  // of the bounding box
-  double cell() const { return cell_; }          // edge of a cell of the field
-  const RayGrid& rays() const { return rays_; }  // 2 x 2 rays a cell
+  const std::vector<Vec3>& vertices() const { return surface_->vertices; }
+  const std::vector<catalog::Triangle>& faces() const { return surface_->faces; }
+  double volume() const { return surface_->volume; }      // exact, by signed tetrahedra
+  double diagonal() const { return surface_->diagonal; }  // of the bounding box
+  double cell() const { return cell_; }                   // edge of a cell of the field
+  const RayGrid& rays() const { return rays_; }           // 2 x 2 rays a cell
   const RayIntervals& columns() const { return columns_; }
 
   /// Few flat facets, as a drawn solid has and a scan has not: worth looking for exactly convex pieces.
-  bool is_faceted() const { return is_faceted_; }
+  bool is_faceted() const { return surface_->is_faceted; }
   /// Planes of the facets at re-entrant edges of a faceted solid, largest facets first; none for others.
-  const std::vector<Plane>& facet_planes() const { return facet_planes_; }
+  const std::vector<Plane>& facet_planes() const { return surface_->facet_planes; }
   /// Ends of the re-entrant edges of a faceted solid; none for others.
-  const std::vector<std::array<Vec3, 2>>& reentrant_edges() const { return reentrant_edges_; }
+  const std::vector<std::array<Vec3, 2>>& reentrant_edges() const { return surface_->reentrant_edges; }
 
   /// Volume of the part of the solid in the cell, integrated over the columns.
   double volume_inside(const std::vector<Plane>& cell) const;
@@ -74,20 +77,26 @@ class Solid {
   std::vector<Vec3> points_inside(const std::vector<Plane>& cell, int count, Random& random) const;
 
  private:
+  struct Surface {
+    std::vector<Vec3> vertices;
+    std::vector<catalog::Triangle> faces;
+    double volume = 0, diagonal = 0;
+    bool is_faceted = false;
+    std::vector<Plane> facet_planes;
+    std::vector<std::array<Vec3, 2>> reentrant_edges;
+  };
+  Solid(std::shared_ptr<const Surface> surface, double cell_count);
+  static std::shared_ptr<const Surface> surface_of(const catalog::TriangleMesh& mesh);
+  static void find_facets(Surface& surface);
   void fill_field();
-  void find_facets();
 
-  std::vector<Vec3> vertices_;
-  std::vector<catalog::Triangle> faces_;
-  double volume_ = 0, diagonal_ = 0, cell_ = 0, cells_per_length_ = 0;
+  std::shared_ptr<const Surface> surface_;
+  double cell_ = 0, cells_per_length_ = 0;
   Vec3 origin_;  // low corner of the field
   int nx_ = 0, ny_ = 0, nz_ = 0;
   std::vector<std::uint8_t> field_;  // nz x ny x nx, 255 is full
   RayGrid rays_;
   RayIntervals columns_;
-  bool is_faceted_ = false;
-  std::vector<Plane> facet_planes_;
-  std::vector<std::array<Vec3, 2>> reentrant_edges_;
 };
 
 /// Moments of a set of points that stands for a region of that volume.

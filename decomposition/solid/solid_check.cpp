@@ -55,10 +55,11 @@ void check_closed_solid(const catalog::TriangleMesh& mesh) {
       if (!std::isfinite(coordinate)) refuse("vertex " + std::to_string(v) + " is not finite; repair the mesh first");
   if (const std::size_t open = count_open_edges(mesh); open > 0)
     refuse(std::to_string(open) + " open edges, expected a closed surface; repair the mesh with talus digitize");
-  std::vector<Vec3> points;
+  const Vec3 corner = to_vec3(mesh.vertices[static_cast<std::size_t>(mesh.faces[0][0])]);
+  Box box{corner, corner};
   for (const catalog::Triangle& face : mesh.faces)
-    for (const int v : face) points.push_back(to_vec3(mesh.vertices[static_cast<std::size_t>(v)]));
-  const double diagonal = bounding_box(points).diagonal();
+    for (const int v : face) box.extend(to_vec3(mesh.vertices[static_cast<std::size_t>(v)]));
+  const double diagonal = box.diagonal();
   const double share = catalog::volume_moments(mesh).volume / (diagonal * diagonal * diagonal);
   if (!(std::abs(share) > kFlat)) refuse("it is flat, its volume is zero; a solid is needed");
   if (share < 0) refuse("its normals point inward, its volume is negative; turn its faces round");
