@@ -11,7 +11,7 @@
 #include "catalog/mass_properties.h"
 #include "decomposition/assembly/level_search.h"
 #include "decomposition/decomposition_quality.h"
-#include "decomposition/solid/solid_check.h"
+#include "decomposition/solid/solid_surface.h"
 
 namespace decomposition {
 namespace {
@@ -109,15 +109,31 @@ std::vector<catalog::LevelOfDetail> decompose_ladder(const catalog::TriangleMesh
                                                      const std::vector<int>& part_counts,
                                                      const DecompositionOptions& options) {
   check_options(options, part_counts);
-  check_closed_solid(mesh);
-  LevelSearch search(mesh, options);
+  const SolidSurface surface = solid_surface(mesh, options.bodies);
+  const catalog::TriangleMesh& solid = surface.cleaned ? *surface.cleaned : mesh;
+  LevelSearch search(solid, options);
   std::vector<catalog::LevelOfDetail> levels;
-  for (const int count : part_counts) levels.push_back(make_level(mesh, search, count, options));
+  for (const int count : part_counts) {
+    levels.push_back(make_level(solid, search, count, options));
+    levels.back().provenance.options.back() = ',';
+    levels.back().provenance.options += "\"mesh\":" + surface.notes.json() + "}";
+  }
   return levels;
 }
 
 catalog::LevelOfDetail decompose(const catalog::TriangleMesh& mesh, const DecompositionOptions& options) {
   return decompose_ladder(mesh, {options.parts}, options).front();
+}
+
+std::string bodies_name(SeparateBodies bodies) {
+  switch (bodies) {
+    case SeparateBodies::largest:
+      return "largest";
+    case SeparateBodies::refuse:
+      return "refuse";
+    default:
+      return "join";
+  }
 }
 
 std::string mode_name(FitMode mode) {
@@ -154,8 +170,8 @@ LevelFigures figures(const std::vector<catalog::ConvexPart>& parts) {
 std::string options_json(const DecompositionOptions& options) {
   return "{\"parts\":" + std::to_string(options.parts) + ",\"vertex_cap\":" + std::to_string(options.vertex_cap) +
          ",\"face_cap\":" + std::to_string(options.face_cap) + ",\"mode\":\"" + mode_name(options.mode) +
-         "\",\"seed\":" + std::to_string(options.seed) + ",\"effort\":" + number(options.effort) +
-         ",\"time_budget\":" + number(options.time_budget) +
+         "\",\"bodies\":\"" + bodies_name(options.bodies) + "\",\"seed\":" + std::to_string(options.seed) +
+         ",\"effort\":" + number(options.effort) + ",\"time_budget\":" + number(options.time_budget) +
          ",\"smallest_thickness\":" + number(options.smallest_thickness) +
          ",\"smallest_volume\":" + number(options.smallest_volume) + "}";
 }

@@ -17,11 +17,19 @@ enum class FitMode {
   inscribed     // nothing sticks out of the mesh
 };
 
+/// What becomes of closed surfaces that lie apart from one another.
+enum class SeparateBodies {
+  join,     // all are one rigid body
+  largest,  // the one of most volume, with its cavities
+  refuse
+};
+
 struct DecompositionOptions {
   int parts = 8;        // at most; fewer where more would not help or would make slivers
   int vertex_cap = 32;  // of each part, 8 to 64
   int face_cap = 0;     // of each part, faces in one plane counted as one, 8 to 124; 0: none
   FitMode mode = FitMode::volume_true;
+  SeparateBodies bodies = SeparateBodies::join;
   std::uint64_t seed = 1;  // same mesh, options and seed: same bytes, whatever `threads` is
   double effort = 1;       // scales the number of cuts and fits tried, 0.1 to 100; time grows in proportion
   // CPU time [s] for looking for the cuts of all levels; as many searches as fit into it, at least one, instead of the
@@ -59,8 +67,11 @@ struct LevelFigures {
 /// A convex mesh within the caps comes back as its own hull, and a solid of few flat facets as the exact convex pieces
 /// that the search finds; pieces beside exact ones, and those of shells whose sections are no convex polygons, are
 /// fitted one by one, each to its own volume, with their cuts' ledges. The error is measured (measure_error).
-/// Provenance: `options` holds the options and the LevelFigures as JSON,
-/// {"options": {...}, "measured": {...}}; the caller fills in the rest.
+/// The mesh must be closed; it may have handles, cavities (hollows closed off from outside, which stay hollow) and
+/// several bodies (`bodies`). Surfaces that lie wholly in the rock, so that they would count it twice, are left out.
+/// Surfaces that cut one another are refused if that puts more than 0.1 % of the volume in doubt.
+/// Provenance: `options` holds the options, the LevelFigures and what was found in the mesh as JSON,
+/// {"options": {...}, "measured": {...}, "mesh": {...}}; the caller fills in the rest.
 /// Throws catalog::InputError for a mesh that bounds no solid and for options out of range.
 catalog::LevelOfDetail decompose(const catalog::TriangleMesh& mesh, const DecompositionOptions& options = {});
 
@@ -75,6 +86,9 @@ LevelFigures figures(const std::vector<catalog::ConvexPart>& parts);
 
 /// "volume-true", "enclosing" or "inscribed".
 std::string mode_name(FitMode mode);
+
+/// "join", "largest" or "refuse".
+std::string bodies_name(SeparateBodies bodies);
 
 /// The options that change the result, as a JSON object; what Provenance::options holds under "options".
 std::string options_json(const DecompositionOptions& options);

@@ -65,9 +65,12 @@ RayIntervals intersect(const RayGrid& grid, const std::vector<Vec3>& vertices,
   for (std::size_t ray = 0; ray < static_cast<std::size_t>(grid.count()); ++ray) {
     result.first[ray] = result.intervals.size();
     int winding = 0;
-    double entered = 0;
+    double entered = 0, last = 0;
     for (; h < hits.size() && hits[h].ray == ray; ++h) {
       const int before = winding;
+      if (before > 1) result.repeated += (before - 1) * (hits[h].z - last);
+      if (before < 0) result.inverted -= before * (hits[h].z - last);
+      last = hits[h].z;
       winding += hits[h].entering;
       if (before <= 0 && winding > 0) entered = hits[h].z;
       if (before > 0 && winding <= 0 && hits[h].z > entered) result.intervals.push_back({entered, hits[h].z});

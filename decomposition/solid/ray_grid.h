@@ -29,6 +29,8 @@ struct ZInterval {
 struct RayIntervals {
   std::vector<std::size_t> first;    // (n_rays + 1) index of a ray's first interval
   std::vector<ZInterval> intervals;  // exact along the ray: where the winding number is positive
+  double repeated = 0;               // length over all rays times what the winding number exceeds 1 by
+  double inverted = 0;               // length over all rays times what it falls short of 0 by
 };
 
 /// Intersects the rays with a closed surface given as vertices and faces (outward normals). A ray through an edge

@@ -22,7 +22,7 @@ struct RegionMoments {
 /// Cells are cubes whose number is fixed, so that a slab gets as many of them across as its volume allows.
 class Solid {
  public:
-  /// `mesh` has passed check_closed_solid. `cell_count`: of the occupancy field, about.
+  /// `mesh` has passed check_solid. `cell_count`: of the occupancy field, about.
   Solid(const catalog::TriangleMesh& mesh, double cell_count);
   /// The same solid, its surface shared, with another number of cells.
   Solid(const Solid& other, double cell_count);

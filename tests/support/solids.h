@@ -25,6 +25,35 @@ inline TriangleMesh box(const Point& low, const Point& high) {
   return mesh;
 }
 
+/// All surfaces in one mesh, none joined.
+inline TriangleMesh together(const std::vector<TriangleMesh>& meshes) {
+  TriangleMesh all;
+  for (const TriangleMesh& mesh : meshes) {
+    const int first = static_cast<int>(all.vertices.size());
+    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (const catalog::Triangle& face : mesh.faces)
+      all.faces.push_back({face[0] + first, face[1] + first, face[2] + first});
+  }
+  return all;
+}
+
+inline TriangleMesh inside_out(TriangleMesh mesh) {
+  for (catalog::Triangle& face : mesh.faces) std::swap(face[0], face[1]);
+  return mesh;
+}
+
+inline TriangleMesh moved(TriangleMesh mesh, const Point& by) {
+  for (Point& p : mesh.vertices)
+    for (int i = 0; i < 3; ++i) p[i] += by[i];
+  return mesh;
+}
+
+inline TriangleMesh scaled(TriangleMesh mesh, const Point& by) {
+  for (Point& p : mesh.vertices)
+    for (int i = 0; i < 3; ++i) p[i] *= by[i];
+  return mesh;
+}
+
 inline TriangleMesh tetrahedron() {  // volume 1/6
   return {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 }

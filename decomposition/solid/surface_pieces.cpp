@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "decomposition/solid/surface_pieces.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "catalog/mass_properties.h"
+#include "decomposition/solid/ray_grid.h"
+
+namespace decomposition {
+namespace {
+
+constexpr std::size_t kPlaces = 12;  // looked at for whether a surface lies in another; a cube has as many faces
+
+/// One surface turned outwards, with its box.
+struct Piece {
+  std::vector<std::array<int, 3>> faces;
+  Box box;
+  double volume = 0;  // as found, signed
+};
+
+/// Piece of each face, numbered in the order of first appearance; vertices in common join faces.
+std::vector<int> numbered_pieces(const catalog::TriangleMesh& mesh) {
+  std::vector<int> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto at = [&](int v) -> int& { return parent[static_cast<std::size_t>(v)]; };
+  const auto root = [&](int v) {
+    while (at(v) != v) v = at(v) = at(at(v));
+    return v;
+  };
+  for (const catalog::Triangle& face : mesh.faces)
+    for (std::size_t k = 1; k < 3; ++k) {
+      const int a = root(face[0]), b = root(face[k]);
+      at(std::max(a, b)) = std::min(a, b);
+    }
+  std::vector<int> number(mesh.vertices.size(), -1), piece_of;
+  piece_of.reserve(mesh.faces.size());
+  int count = 0;
+  for (const catalog::Triangle& face : mesh.faces) {
+    int& n = number[static_cast<std::size_t>(root(face[0]))];
+    if (n < 0) n = count++;
+    piece_of.push_back(n);
+  }
+  return piece_of;
+}
+
+std::vector<Piece> outward_pieces(const catalog::TriangleMesh& mesh, const std::vector<int>& piece_of) {
+  std::vector<Piece> pieces(static_cast<std::size_t>(*std::max_element(piece_of.begin(), piece_of.end())) + 1);
+  const auto vertex = [&](int v) { return to_vec3(mesh.vertices[static_cast<std::size_t>(v)]); };
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    Piece& piece = pieces[static_cast<std::size_t>(piece_of[f])];
+    if (piece.faces.empty()) piece.box = {vertex(mesh.faces[f][0]), vertex(mesh.faces[f][0])};
+    piece.faces.push_back(mesh.faces[f]);
+    for (const int v : mesh.faces[f]) piece.box.extend(vertex(v));
+  }
+  for (Piece& piece : pieces) {
+    const Vec3 reference = vertex(piece.faces.front()[0]);
+    for (const auto& [a, b, c] : piece.faces)
+      piece.volume += dot(vertex(a) - reference, cross(vertex(b) - reference, vertex(c) - reference)) / 6;
+    if (piece.volume < 0)
+      for (auto& face : piece.faces) std::swap(face[1], face[2]);
+  }
+  return pieces;
+}
+
+bool is_in_box(const Box& small, const Box& large) {
+  return small.low.x >= large.low.x && small.low.y >= large.low.y && small.low.z >= large.low.z &&
+         small.high.x <= large.high.x && small.high.y <= large.high.y && small.high.z <= large.high.z;
+}
+
+/// Whether the piece winds round p: one ray along z through it.
+bool holds(const Piece& piece, const std::vector<Vec3>& vertices, const Vec3& p) {
+  RayGrid ray;
+  ray.cell = piece.box.diagonal();
+  ray.x0 = p.x - ray.cell / 2;
+  ray.y0 = p.y - ray.cell / 2;
+  ray.nx = ray.ny = 1;
+  const RayIntervals inside = intersect(ray, vertices, piece.faces);
+  return std::any_of(inside.intervals.begin(), inside.intervals.end(),
+                     [&](const ZInterval& stretch) { return p.z > stretch.low && p.z < stretch.high; });
+}
+
+/// Whether `inner` lies in `outer`: the middles of some of its faces do, so that touching with a few is no matter.
+bool lies_in(const Piece& inner, const Piece& outer, const std::vector<Vec3>& vertices) {
+  if (!is_in_box(inner.box, outer.box)) return false;
+  const std::size_t count = std::min(inner.faces.size(), kPlaces);
+  for (std::size_t k = 0; k < count; ++k) {
+    Vec3 middle;
+    for (const int v : inner.faces[k * inner.faces.size() / count])
+      middle += (1 / 3.0) * vertices[static_cast<std::size_t>(v)];
+    if (!holds(outer, vertices, middle)) return false;
+  }
+  return true;
+}
+
+PieceRole role_of(bool is_outward, int winding_around) {
+  if (is_outward)
+    return winding_around == 0 ? PieceRole::body : (winding_around > 0 ? PieceRole::inner : PieceRole::inverted);
+  return winding_around == 1 ? PieceRole::cavity : (winding_around > 1 ? PieceRole::inner : PieceRole::inverted);
+}
+
+}  // namespace
+
+int SurfacePieces::count(PieceRole role) const {
+  return static_cast<int>(
+      std::count_if(pieces.begin(), pieces.end(), [&](const SurfacePiece& piece) { return piece.role == role; }));
+}
+
+int count_pieces(const catalog::TriangleMesh& mesh) {
+  const std::vector<int> piece_of = numbered_pieces(mesh);
+  return piece_of.empty() ? 0 : *std::max_element(piece_of.begin(), piece_of.end()) + 1;
+}
+
+SurfacePieces surface_pieces(const catalog::TriangleMesh& mesh) {
+  SurfacePieces result;
+  result.piece_of = numbered_pieces(mesh);
+  if (mesh.faces.empty()) return result;
+  const std::vector<Piece> pieces = outward_pieces(mesh, result.piece_of);
+  std::vector<Vec3> vertices;
+  vertices.reserve(mesh.vertices.size());
+  for (const catalog::Point& p : mesh.vertices) vertices.push_back(to_vec3(p));
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    int winding = 0;
+    SurfacePiece piece;
+    piece.volume = pieces[i].volume;
+    for (std::size_t j = 0; j < pieces.size(); ++j) {
+      if (j == i || !lies_in(pieces[i], pieces[j], vertices)) continue;
+      winding += pieces[j].volume > 0 ? 1 : -1;
+      const bool is_nearer = piece.body < 0 || pieces[j].volume < pieces[static_cast<std::size_t>(piece.body)].volume;
+      if (pieces[j].volume > 0 && is_nearer) piece.body = static_cast<int>(j);
+    }
+    piece.role = role_of(pieces[i].volume > 0, winding);
+    if (piece.role != PieceRole::cavity) piece.body = -1;
+    result.pieces.push_back(piece);
+  }
+  return result;
+}
+
+}  // namespace decomposition
