@@ -102,6 +102,7 @@ CloudFile read_cloud(const std::filesystem::path& path, const CloudReading& read
   }
   refuse_flat_scan(path, file.cloud.points);
   for (Point& point : file.cloud.points) point = scaled(point, reading.metres_per_unit);
+  refuse_impossible_size(path, file.cloud.points);
   return file;
 }
 

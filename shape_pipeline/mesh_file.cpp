@@ -98,7 +98,12 @@ catalog::TriangleMesh read_mesh(const std::filesystem::path& path, double metres
                     " have a coordinate that is no number (NaN or infinite)",
                 "clean the mesh and export it again");
   refuse_flat_scan(path, mesh.vertices);
+  if (mesh.faces.size() < 4)
+    refuse_file(path, "faces",
+                "expected at least 4, as a closed surface has, found " + std::to_string(mesh.faces.size()),
+                kExportAgain);
   for (Point& p : mesh.vertices) p = scaled(p, metres_per_unit);
+  refuse_impossible_size(path, mesh.vertices);
   return mesh;
 }
 

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
+#include <utility>
 
 #include "catalog/input_error.h"
+#include "workflows/in_order.h"
 #include "workflows/stage_tool.h"
 
 namespace workflows {
@@ -17,7 +20,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using catalog::LevelOfDetail;
 
-constexpr int kJsonFormat = 1;  // raised when a key changes its meaning
+constexpr int kJsonFormat = 1;              // raised when a key changes its meaning
+constexpr std::size_t kLargeMesh = 500000;  // faces; the search takes about 0.25 KB for each beside some 60 MB
 
 std::string mesh_hash(const catalog::TriangleMesh& mesh) {
   std::string bytes(reinterpret_cast<const char*>(mesh.vertices.data()), mesh.vertices.size() * sizeof(catalog::Point));
@@ -49,54 +53,107 @@ std::optional<LevelOfDetail> kept_level(const catalog::ShapeCatalog& shapes, cat
   return level;
 }
 
-/// Kept and new levels of one shape and one vertex cap, in the order asked for.
-std::vector<DecomposedLevel> ladder_of(catalog::ShapeCatalog& shapes, catalog::ShapeId id,
-                                       const catalog::ShapeRecord& shape, const std::vector<int>& part_counts,
-                                       const decomposition::DecompositionOptions& quality) {
-  const std::string hash = mesh_hash(shape.mesh);
-  std::vector<DecomposedLevel> levels;
-  std::vector<int> missing;
-  for (const int parts : part_counts) {
-    DecomposedLevel level{shape.name, {}, false, 0};
-    if (auto kept = kept_level(shapes, id, hash, quality, parts))
-      level.level = std::move(*kept);
-    else {
-      level.is_new = true;
-      missing.push_back(parts);
-    }
-    levels.push_back(std::move(level));
+/// What a shape has and lacks.
+struct ShapeWork {
+  catalog::ShapeId id = 0;
+  std::string name, hash;
+  std::size_t face_count = 0;
+  std::vector<DecomposedLevel> levels;  // cap by cap, in the order asked for; new ones are still empty
+
+  bool lacks_levels() const {
+    return std::any_of(levels.begin(), levels.end(), [](const DecomposedLevel& level) { return level.is_new; });
   }
-  if (missing.empty()) return levels;
-  const auto start = std::chrono::steady_clock::now();
-  std::vector<LevelOfDetail> made = decomposition::decompose_ladder(shape.mesh, missing, quality);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  for (LevelOfDetail& level : made) {
-    level.provenance.source_file = shape.name;
-    level.provenance.source_sha256 = hash;
-    level.provenance.tool_version = tool_version();
-  }
-  shapes.store_levels(id, made);
-  auto next = made.begin();
-  for (DecomposedLevel& level : levels)
-    if (level.is_new) {
-      level.level = std::move(*next++);
-      level.seconds = seconds;
-    }
-  return levels;
+};
+
+decomposition::DecompositionOptions with_cap(const DecomposeBatchOptions& options, int vertex_cap) {
+  decomposition::DecompositionOptions quality = options.quality;
+  quality.vertex_cap = vertex_cap;
+  return quality;
 }
 
-/// Kept and new levels of one shape, cap by cap.
-std::vector<DecomposedLevel> levels_of(catalog::ShapeCatalog& shapes, catalog::ShapeId id,
-                                       const DecomposeBatchOptions& options) {
+ShapeWork work_of(const catalog::ShapeCatalog& shapes, catalog::ShapeId id, const DecomposeBatchOptions& options) {
   const catalog::ShapeRecord shape = shapes.shape(id);
-  std::vector<DecomposedLevel> levels;
+  ShapeWork work{id, shape.name, mesh_hash(shape.mesh), shape.mesh.face_count(), {}};
+  for (const int cap : options.vertex_caps)
+    for (const int parts : options.part_counts) {
+      DecomposedLevel level{shape.name, {}, true, 0};
+      level.level.parts_asked = parts;
+      level.level.vertex_cap = cap;
+      if (auto kept = kept_level(shapes, id, work.hash, with_cap(options, cap), parts)) {
+        level.level = std::move(*kept);
+        level.is_new = false;
+      }
+      work.levels.push_back(std::move(level));
+    }
+  return work;
+}
+
+/// Fills in the levels that the shape lacks, a ladder for each cap.
+void make_levels(const catalog::TriangleMesh& mesh, const DecomposeBatchOptions& options, int threads,
+                 ShapeWork& work) {
   for (const int cap : options.vertex_caps) {
-    decomposition::DecompositionOptions quality = options.quality;
-    quality.vertex_cap = cap;
-    std::vector<DecomposedLevel> ladder = ladder_of(shapes, id, shape, options.part_counts, quality);
-    std::move(ladder.begin(), ladder.end(), std::back_inserter(levels));
+    std::vector<DecomposedLevel*> missing;
+    std::vector<int> part_counts;
+    for (DecomposedLevel& level : work.levels)
+      if (level.is_new && level.level.vertex_cap == cap) {
+        missing.push_back(&level);
+        part_counts.push_back(level.level.parts_asked);
+      }
+    if (missing.empty()) continue;
+    decomposition::DecompositionOptions quality = with_cap(options, cap);
+    quality.threads = threads;
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<LevelOfDetail> made = decomposition::decompose_ladder(mesh, part_counts, quality);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    for (std::size_t k = 0; k < made.size(); ++k) {
+      made[k].provenance.source_file = work.name;
+      made[k].provenance.source_sha256 = work.hash;
+      made[k].provenance.tool_version = tool_version();
+      missing[k]->level = std::move(made[k]);
+      missing[k]->seconds = seconds;
+    }
   }
-  return levels;
+}
+
+/// Why the levels of a shape cannot be made; empty if they were.
+std::string refusal(const std::function<void()>& work) {
+  try {
+    work();
+    return "";
+  } catch (const catalog::InputError& error) {
+    return error.what();
+  } catch (const std::logic_error& error) {
+    // CGAL reports a geometry it cannot handle this way: this shape is lost, the batch is not.
+    return std::string("mesh: the geometry library gave up (") + error.what() + "); clean the scan";
+  }
+}
+
+std::vector<catalog::ShapeId> selected(const catalog::ShapeCatalog& shapes, const DecomposeBatchOptions& options) {
+  std::vector<catalog::ShapeId> ids;
+  for (const std::string& name : options.names)
+    if (const auto id = shapes.find(name)) ids.push_back(*id);
+  if (options.names.empty()) ids = shapes.select(options.select);
+  if (ids.empty())
+    throw catalog::InputError(options.catalog +
+                              (options.select.empty()
+                                   ? ": has no shapes; fill it with talus digitize ... --into"
+                                   : ": --select \"" + options.select + "\" selects no shape; see talus catalog list"));
+  return ids;
+}
+
+/// How many shapes are in work at a time, and with how many threads each.
+struct Sharing {
+  int shapes, threads_each;
+};
+
+Sharing sharing(const std::vector<ShapeWork*>& lacking, const DecomposeBatchOptions& options) {
+  const int threads = threads_to_use(options.quality.threads);
+  const bool is_large =
+      std::any_of(lacking.begin(), lacking.end(), [](const ShapeWork* work) { return work->face_count > kLargeMesh; });
+  // A time budget counts the CPU time of all threads together.
+  if (is_large || options.quality.time_budget > 0) return {1, threads};
+  const int at_once = std::clamp(static_cast<int>(lacking.size()), 1, threads);
+  return {at_once, threads / at_once};
 }
 
 std::string padded(const std::string& text, std::size_t width) {
@@ -107,23 +164,41 @@ std::string padded(const std::string& text, std::size_t width) {
 
 DecomposeBatchResult decompose_shapes(catalog::ShapeCatalog& shapes, const DecomposeBatchOptions& options,
                                       const std::function<void(const std::string& name, std::size_t of)>& about_to) {
-  const std::vector<catalog::ShapeId> ids = shapes.select(options.select);
-  if (ids.empty())
-    throw catalog::InputError(options.catalog +
-                              (options.select.empty()
-                                   ? ": has no shapes; fill it with talus digitize ... --into"
-                                   : ": --select \"" + options.select + "\" selects no shape; see talus catalog list"));
+  std::vector<ShapeWork> all;
+  for (const catalog::ShapeId id : selected(shapes, options)) all.push_back(work_of(shapes, id, options));
+  std::vector<ShapeWork*> lacking;
+  for (ShapeWork& work : all)
+    if (work.lacks_levels()) lacking.push_back(&work);
+
+  const Sharing share = sharing(lacking, options);
   DecomposeBatchResult result;
-  for (const catalog::ShapeId id : ids) {
-    const std::string name = shapes.summary(id).name;
-    about_to(name, ids.size());
-    try {
-      std::vector<DecomposedLevel> levels = levels_of(shapes, id, options);
-      std::move(levels.begin(), levels.end(), std::back_inserter(result.levels));
-    } catch (const catalog::InputError& error) {
-      result.failures.push_back({name, error.what()});
+  std::mutex catalog_use;
+  OrderedWork<std::string> batch;
+  batch.count = static_cast<int>(lacking.size());
+  batch.threads = share.shapes;
+  batch.begin = [&](int k) { about_to(lacking[static_cast<std::size_t>(k)]->name, lacking.size()); };
+  batch.make = [&](int k) {
+    ShapeWork& work = *lacking[static_cast<std::size_t>(k)];
+    std::unique_lock lock(catalog_use);
+    const catalog::TriangleMesh mesh = shapes.shape(work.id).mesh;
+    lock.unlock();
+    return refusal([&] { make_levels(mesh, options, share.threads_each, work); });
+  };
+  batch.take = [&](int k, std::string&& reason) {
+    ShapeWork& work = *lacking[static_cast<std::size_t>(k)];
+    if (!reason.empty()) {
+      result.failures.push_back({work.name, reason});
+      std::erase_if(work.levels, [](const DecomposedLevel& level) { return level.is_new; });
+      return;
     }
-  }
+    std::vector<LevelOfDetail> made;
+    for (const DecomposedLevel& level : work.levels)
+      if (level.is_new) made.push_back(level.level);
+    const std::lock_guard lock(catalog_use);
+    shapes.store_levels(work.id, made);
+  };
+  run_in_order(batch);
+  for (ShapeWork& work : all) std::move(work.levels.begin(), work.levels.end(), std::back_inserter(result.levels));
   return result;
 }
 

@@ -15,6 +15,7 @@ struct DecomposeBatchOptions {
   std::vector<int> part_counts{1, 2, 4, 8};
   std::vector<int> vertex_caps{32};             // every number of parts at each of these caps
   std::string select;                           // catalogue query; empty: every shape
+  std::vector<std::string> names;               // of the shapes; empty: those of the query
   decomposition::DecompositionOptions quality;  // its parts and vertex_cap are not used
 };
 
@@ -36,8 +37,10 @@ struct DecomposeBatchResult {
 
 /// Makes the levels that the selected shapes lack and stores them, one transaction a shape. A level counts as present
 /// if tool version, options and the mesh's bytes are the same. A shape that cannot be decomposed is listed and passed
-/// over. `about_to` is called before each shape with its name and the number of shapes. Throws InputError if the query
-/// selects nothing.
+/// over. The threads of `quality` go to several shapes at a time, or to the search inside one where there are fewer
+/// shapes, a time budget, or meshes so large that two would take much memory; the catalogue's bytes do not depend on
+/// their number. `about_to` is called before each shape with work to do, with its name and the number of such shapes.
+/// Throws InputError if the query selects nothing.
 DecomposeBatchResult decompose_shapes(catalog::ShapeCatalog& shapes, const DecomposeBatchOptions& options,
                                       const std::function<void(const std::string& name, std::size_t of)>& about_to);
 

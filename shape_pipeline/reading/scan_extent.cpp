@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <string>
 
 #include "catalog/mass_properties.h"
+#include "shape_pipeline/mesh_topology.h"
 #include "shape_pipeline/reading/scan_bytes.h"
 #include "shape_pipeline/surfaces/vector3.h"
 
@@ -12,6 +15,13 @@ namespace shape_pipeline {
 namespace {
 
 constexpr double kFlatRatio = 1e-4;  // spread across / spread along: no particle is that thin, no scanner that exact
+constexpr double kSmallestSize = 1e-12, kLargestCoordinate = 1e12;  // [m]
+
+std::string metres(double length) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3g m", length);
+  return text;
+}
 
 }  // namespace
 
@@ -37,6 +47,16 @@ void refuse_flat_scan(const std::filesystem::path& path, const std::vector<catal
                             : spread(1) <= kFlatRatio * spread(2) ? "all points lie on one line"
                                                                   : "all points lie in one plane";
   refuse_file(path, "points", "expected a solid particle, but " + found, "scan it from all sides");
+}
+
+void refuse_impossible_size(const std::filesystem::path& path, const std::vector<catalog::Point>& points) {
+  double largest = 0;
+  for (const Point& p : points)
+    for (const double coordinate : p) largest = std::max(largest, std::abs(coordinate));
+  if (largest > kLargestCoordinate)
+    refuse_file(path, "points", "expected coordinates up to 1e12 m, found " + metres(largest), "check the unit");
+  if (const double size = bounding_diagonal(points); size < kSmallestSize)
+    refuse_file(path, "points", "expected a particle of at least 1e-12 m, found " + metres(size), "check the unit");
 }
 
 }  // namespace shape_pipeline

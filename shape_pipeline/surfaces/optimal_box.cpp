@@ -2,6 +2,7 @@
 #include "shape_pipeline/surfaces/optimal_box.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Random.h>
 #include <CGAL/optimal_bounding_box.h>
 
 namespace shape_pipeline {
@@ -12,6 +13,9 @@ catalog::Matrix3 optimal_box_axes(const std::vector<catalog::Point>& points) {
   kernel_points.reserve(points.size());
   for (const catalog::Point& p : points) kernel_points.emplace_back(p[0], p[1], p[2]);
   std::array<Kernel::Point_3, 8> corners;
+  // The search starts from random rotations: a fixed seed makes the box that of these points alone, whatever was looked
+  // at before on this thread.
+  CGAL::get_default_random() = CGAL::Random(1);
   CGAL::oriented_bounding_box(kernel_points, corners, CGAL::parameters::use_convex_hull(false));
 
   // Corners 1, 3 and 5 are the neighbours of corner 0.

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// talus-decompose on a folder of scans, as a user starts it.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "catalog/shape_catalog.h"
+#include "shape_pipeline/mesh_file.h"
+#include "tests/support/solids.h"
+#include "tests/support/temporary_folder.h"
+
+namespace {
+
+using nlohmann::json;
+using test_support::read_bytes;
+using test_support::TemporaryFolder;
+using test_support::write_bytes;
+
+int decompose(const TemporaryFolder& folder, const std::string& arguments) {
+  const std::string line =
+      "cd '" + folder.path().string() + "' && '" TALUS_DECOMPOSE "' " + arguments + " >out.json 2>err";
+  const int status = std::system(line.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+json output(const TemporaryFolder& folder) { return json::parse(read_bytes(folder / "out.json")); }
+
+std::string reason_of(const json& result, const std::string& shape) {
+  for (const json& failure : result["failures"])
+    if (failure["shape"] == shape) return failure["reason"];
+  return "";
+}
+
+catalog::TriangleMesh egg(double length) { return solids::scaled(solids::sphere(1, 3), {length, 1, 1}); }
+
+/// Three sound scans, and every kind of file that no shape can be made of.
+void write_scans(const TemporaryFolder& folder) {
+  std::filesystem::create_directory(folder / "scans");
+  const auto write = [&](const std::string& name, const catalog::TriangleMesh& mesh) {
+    shape_pipeline::write_stl(folder / "scans" / name, mesh);
+  };
+  write("angle.stl", solids::l_shape());
+  write("egg.stl", egg(1.5));
+  write("long_egg.stl", egg(2.5));
+  write("bad_flat.stl", solids::scaled(egg(1.5), {1, 1, 0}));
+  catalog::TriangleMesh three_faces = solids::box({0, 0, 0}, {1, 1, 1});
+  three_faces.faces.resize(3);
+  write("bad_open.stl", three_faces);
+  catalog::TriangleMesh not_a_number = egg(1.5);
+  not_a_number.vertices[7][1] = std::numeric_limits<double>::quiet_NaN();
+  write("bad_nan.stl", not_a_number);
+  write("bad_huge.stl", solids::scaled(egg(1.5), {1e30, 1e30, 1e30}));
+  write("bad_tiny.stl", solids::scaled(egg(1.5), {1e-30, 1e-30, 1e-30}));
+  write_bytes(folder / "scans/bad_empty.stl", "");
+  write_bytes(folder / "scans/bad_short.stl", read_bytes(folder / "scans/egg.stl").substr(0, 500));
+}
+
+TEST(DecomposeFolder, GoesOnPastBadScansAndGivesTheSameBytesForAnyNumberOfThreads) {
+  const TemporaryFolder folder;
+  write_scans(folder);
+  const std::string options = " --unit mm --parts 1,2 --effort 0.1 --json";
+  ASSERT_EQ(decompose(folder, "scans --into one.talus --threads 1" + options), 3);
+  const json one = output(folder);
+  EXPECT_EQ(one["levels"].size(), 6u) << one.dump(1);
+  EXPECT_EQ(one["failures"].size(), 7u);
+  for (const std::string name : {"bad_flat", "bad_open", "bad_nan", "bad_huge", "bad_tiny", "bad_empty", "bad_short"}) {
+    const std::string reason = reason_of(one, name);
+    EXPECT_NE(reason.find("scans/" + name + ".stl: "), std::string::npos) << name << ": " << reason;
+    EXPECT_NE(reason.find("; "), std::string::npos) << "no remedy: " << reason;
+    EXPECT_NE(read_bytes(folder / "err").find(name + ": not decomposed: "), std::string::npos) << "listed at the end";
+  }
+  EXPECT_NE(read_bytes(folder / "err").find("decompose: [3/3] long_egg"), std::string::npos) << "progress";
+  for (const std::string threads : {"2", "5"}) {
+    ASSERT_EQ(decompose(folder, "scans --into many.talus --threads " + threads + options), 3);
+    EXPECT_TRUE(read_bytes(folder / "one.talus") == read_bytes(folder / "many.talus")) << threads << " threads";
+    std::filesystem::remove(folder / "many.talus");
+  }
+}
+
+TEST(DecomposeFolder, ASecondRunDoesWhatIsNew) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "scans");
+  shape_pipeline::write_stl(folder / "scans/egg.stl", egg(1.5));
+  const std::string command = "scans --into ore.talus --unit mm --parts 1 --effort 0.1 --json";
+  ASSERT_EQ(decompose(folder, command), 0);
+  shape_pipeline::write_stl(folder / "scans/angle.stl", solids::l_shape());
+  ASSERT_EQ(decompose(folder, command), 0);
+  const json levels = output(folder)["levels"];
+  ASSERT_EQ(levels.size(), 2u);
+  EXPECT_TRUE(levels[0]["new"]) << "angle";
+  EXPECT_FALSE(levels[1]["new"]) << "egg";
+  EXPECT_NE(read_bytes(folder / "err").find("decompose: [1/1] angle"), std::string::npos);
+}
+
+TEST(DecomposeFolder, AFolderIsNoCatalogueAndOptionsOfScansNeedOne) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "scans");
+  EXPECT_EQ(decompose(folder, "scans"), 3);
+  EXPECT_NE(read_bytes(folder / "err").find("--into ore.talus --unit mm"), std::string::npos);
+  EXPECT_EQ(decompose(folder, "scans --into ore.talus --unit mm"), 3);
+  EXPECT_NE(read_bytes(folder / "err").find("no scan files in this folder"), std::string::npos);
+  EXPECT_EQ(decompose(folder, "scans --into ore.talus"), 3) << "no unit is guessed";
+  EXPECT_EQ(decompose(folder, "ore.talus --unit mm"), 2);
+  EXPECT_EQ(decompose(folder, "a.talus b.talus"), 2);
+  EXPECT_EQ(decompose(folder, "scans --into ore.talus --unit mm --select \"volume > 1\""), 2);
+  EXPECT_FALSE(std::filesystem::exists(folder / "ore.talus"));
+}
+
+}  // namespace

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "workflows/digitize_batch.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include "catalog/input_error.h"
+#include "shape_pipeline/scan_file.h"
+#include "workflows/in_order.h"
+#include "workflows/units.h"
+
+namespace workflows {
+namespace {
+
+namespace fs = std::filesystem;
+using shape_pipeline::DigitizationOptions;
+using shape_pipeline::ReconstructionMethod;
+using shape_pipeline::RemeshingStyle;
+using shape_pipeline::ScanTruth;
+
+DigitizationOptions digitization_options(const ScanSettings& settings) {
+  if (settings.unit.empty())
+    throw catalog::InputError("--unit: scans carry no unit and none is guessed; state it, such as --unit mm (one of " +
+                              accepted_units(Dimension::length) + ")");
+  const std::optional<double> unit = length_unit(settings.unit);
+  if (!unit)
+    throw catalog::InputError("--unit: expected one of " + accepted_units(Dimension::length) + ", found '" +
+                              settings.unit + "'; state the unit of the scans' coordinates");
+  DigitizationOptions options;
+  options.metres_per_unit = *unit;
+  options.drops_nan_points = settings.drops_nan;
+  options.reconstruction.genus = settings.genus;
+  if (settings.method == "poisson") options.reconstruction.method = ReconstructionMethod::poisson;
+  if (settings.method == "alpha-wrap") options.reconstruction.method = ReconstructionMethod::alpha_wrap;
+  options.remeshing.face_limit = static_cast<std::size_t>(settings.faces);
+  if (settings.is_isotropic) options.remeshing.style = RemeshingStyle::isotropic;
+  if (!settings.size.empty()) {
+    options.sieve_size = parse_quantity(settings.size, Dimension::length);
+    if (!options.sieve_size || !(*options.sieve_size > 0))
+      throw catalog::InputError("--size: expected a length above 0 such as '30 mm', found '" + settings.size + "'");
+  }
+  return options;
+}
+
+/// Everything that changes the result, as JSON; part of the test whether a scan is done already.
+std::string options_text(const ScanSettings& settings, const std::optional<ScanTruth>& truth) {
+  nlohmann::ordered_json options{{"unit", settings.unit},
+                                 {"genus", settings.genus},
+                                 {"faces", settings.faces},
+                                 {"remeshing", settings.is_isotropic ? "isotropic" : "edge_collapse"},
+                                 {"method", settings.method}};
+  if (settings.drops_nan) options["drop_nan"] = true;
+  if (!settings.size.empty()) options["size"] = settings.size;
+  if (truth) options["truth"] = {{"volume", truth->volume}, {"surface_area", truth->surface_area}};
+  return options.dump();
+}
+
+/// Catalogue names of the scans: the stem, with the ending added where two scans of the batch share it.
+std::vector<std::string> shape_names(const std::vector<fs::path>& scans, const std::string& given_name) {
+  if (!given_name.empty()) {
+    if (scans.size() != 1)
+      throw catalog::UsageError("--name fits one scan only; " + std::to_string(scans.size()) + " are given");
+    return {given_name};
+  }
+  std::map<std::string, int> uses;
+  for (const fs::path& scan : scans) ++uses[scan.stem().string()];
+  std::vector<std::string> names;
+  std::set<std::string> taken;
+  for (const fs::path& scan : scans) {
+    std::string name = scan.stem().string();
+    if (uses[name] > 1 && scan.has_extension()) name += "_" + scan.extension().string().substr(1);
+    if (!taken.insert(name).second)
+      throw catalog::InputError(scan.string() + ": another scan of this batch is also named '" + name +
+                                "'; digitise it by itself with --name");
+    names.push_back(name);
+  }
+  return names;
+}
+
+/// The catalogue to fill; SQLite takes an empty file for a new database, but it may be anything of the user's.
+catalog::ShapeCatalog open_catalog(const fs::path& path) {
+  if (fs::is_regular_file(path) && fs::file_size(path) == 0)
+    throw catalog::InputError(
+        path.string() + ": is an empty file, expected a catalogue or a new name; delete the file or name another");
+  return {path, catalog::ShapeCatalog::Access::read_write};
+}
+
+/// A file that is there but may not be looked at is not missing.
+bool is_missing(const fs::path& scan) {
+  std::error_code error;
+  return fs::status(scan, error).type() == fs::file_type::not_found;
+}
+
+/// A reason up to its first semicolon, without the file's name before it.
+std::string first_reason(const DigitizedScan& outcome) {
+  std::string text = outcome.reason;
+  const std::string prefix = outcome.scan.string() + ": ";
+  if (text.starts_with(prefix)) text.erase(0, prefix.size());
+  text.resize(std::min(text.size(), text.find("; ")));
+  if (std::count(text.begin(), text.end(), '(') > std::count(text.begin(), text.end(), ')')) text += ')';
+  return text;
+}
+
+/// Why `work` refuses the scan; empty if it does not.
+std::string refusal(const fs::path& scan, const std::function<void()>& work) {
+  try {
+    work();
+    return "";
+  } catch (const catalog::InputError& error) {
+    return error.what();
+  } catch (const std::logic_error& error) {
+    // CGAL reports a geometry it cannot handle this way: this particle is lost, the batch is not.
+    return scan.string() + ": the geometry library gave up (" + error.what() + "); clean the scan";
+  }
+}
+
+bool is_same(const catalog::Provenance& a, const catalog::Provenance& b) {
+  return a.source_sha256 == b.source_sha256 && a.options == b.options && a.tool_version == b.tool_version;
+}
+
+}  // namespace
+
+DigitizeBatch::DigitizeBatch(const DigitizeBatchOptions& options)
+    : options_(options),
+      digitization_(digitization_options(options.settings)),
+      scans_(shape_pipeline::scan_files(options.inputs)),
+      names_(shape_names(scans_, options.name)),
+      progress_("digitize", static_cast<int>(scans_.size())) {
+  if (!options.truth_path.empty()) truths_ = shape_pipeline::read_truth(options.truth_path);
+  // Without a scan to read no catalogue is made.
+  if (std::any_of(scans_.begin(), scans_.end(), [](const fs::path& scan) { return !is_missing(scan); }))
+    catalog_.emplace(open_catalog(options.catalog_path));
+}
+
+void DigitizeBatch::run() {
+  OrderedWork<Prepared> work;
+  work.count = static_cast<int>(scans_.size());
+  work.threads = threads_to_use(options_.threads);
+  work.begin = [&](int s) { progress_.step(scans_[static_cast<std::size_t>(s)].filename().string()); };
+  work.make = [&](int s) { return prepare(static_cast<std::size_t>(s)); };
+  work.take = [&](int s, Prepared&& prepared) {
+    outcomes_.push_back(stored(static_cast<std::size_t>(s), std::move(prepared)));
+  };
+  run_in_order(work);
+  progress_.finish();
+}
+
+/// Errors of the scan make an outcome; errors of the catalogue, such as a lock, are not the scan's and end the batch.
+DigitizeBatch::Prepared DigitizeBatch::prepare(std::size_t s) {
+  const fs::path& scan = scans_[s];
+  Prepared result;
+  if (is_missing(scan)) return {"missing", scan.string() + ": no such file; check the path", {}, {}};
+  result.provenance = {scan.filename().string(), "", tool_version(), ""};
+  const auto known = truths_.find(scan.filename().string());
+  const auto truth = known == truths_.end() ? std::nullopt : std::optional(known->second);
+  result.provenance.options = options_text(options_.settings, truth);
+  result.reason = refusal(scan, [&] { result.provenance.source_sha256 = catalog::sha256_of_file(scan); });
+  if (result.reason.empty()) {
+    const std::lock_guard lock(catalog_use_);
+    if (const auto id = catalog_->find(names_[s]); id && is_same(catalog_->shape(*id).provenance, result.provenance)) {
+      result.status = "skipped";
+      return result;
+    }
+  }
+  if (result.reason.empty())
+    result.reason = refusal(scan, [&] { result.shape.emplace(shape_pipeline::digitize(scan, digitization_, truth)); });
+  result.status = result.reason.empty() ? "stored" : "rejected";
+  return result;
+}
+
+DigitizedScan DigitizeBatch::stored(std::size_t s, Prepared&& prepared) {
+  const std::lock_guard lock(catalog_use_);
+  const std::string& name = names_[s];
+  DigitizedScan outcome{scans_[s], name, prepared.status, prepared.reason, {}};
+  if (prepared.status == "missing") progress_.note(prepared.reason);
+  if (prepared.status == "rejected") {
+    catalog_->store_rejected(
+        {name, prepared.provenance.source_file, prepared.provenance.source_sha256, prepared.reason});
+    progress_.note("rejected: " + prepared.reason);
+  }
+  if (outcome.is_bad()) return outcome;
+  if (prepared.status == "skipped") {
+    catalog_->forget_rejected(name);
+  } else {
+    prepared.shape->name = name;
+    prepared.shape->provenance = prepared.provenance;
+    catalog_->store_shape(*prepared.shape);
+  }
+  outcome.summary = catalog_->summary(*catalog_->find(name));
+  return outcome;
+}
+
+std::string failures_text(const std::vector<DigitizedScan>& outcomes) {
+  std::string lines;
+  int bad = 0;
+  for (const DigitizedScan& outcome : outcomes) {
+    if (!outcome.is_bad()) continue;
+    ++bad;
+    lines += "  " + outcome.name + ": " + first_reason(outcome) + "\n";
+  }
+  if (bad == 0) return "";
+  return std::to_string(bad) + " of " + std::to_string(outcomes.size()) + " scans rejected or missing:\n" + lines;
+}
+
+}  // namespace workflows

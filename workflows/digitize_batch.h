@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "catalog/shape_catalog.h"
+#include "shape_pipeline/digitization.h"
+#include "workflows/stage_tool.h"
+
+namespace workflows {
+
+/// How scans become shapes, as typed.
+struct ScanSettings {
+  std::string unit, size, method = "auto";
+  int genus = 0, faces = 10000;
+  bool is_isotropic = false, drops_nan = false;
+};
+
+struct DigitizeBatchOptions {
+  std::vector<std::filesystem::path> inputs;  // scan files, or folders of them
+  std::filesystem::path catalog_path, truth_path;
+  std::string name;  // of the only scan; empty: the file's name without ending
+  ScanSettings settings;
+  int threads = 0;  // 0: as many as the machine has
+};
+
+struct DigitizedScan {
+  std::filesystem::path scan;
+  std::string name, status;  // "stored", "skipped", "rejected" or "missing"
+  std::string reason;        // of "rejected" and "missing"
+  catalog::ShapeSummary summary;
+
+  bool is_bad() const { return status == "rejected" || status == "missing"; }
+};
+
+/// Scans into a catalogue, several at a time, stored in the order of their names whatever the number of threads. A scan
+/// that is there from the same bytes with the same options is skipped; a bad one is kept as rejected with its reason,
+/// and the batch goes on. The constructor throws catalog::InputError or UsageError for options that fit no batch, and
+/// for a catalogue that cannot be opened; run() where it cannot be written.
+class DigitizeBatch {
+ public:
+  explicit DigitizeBatch(const DigitizeBatchOptions& options);
+  void run();
+
+  /// Of the scans done, in the order of the scans.
+  const std::vector<DigitizedScan>& outcomes() const { return outcomes_; }
+
+ private:
+  /// A scan on its way to the catalogue.
+  struct Prepared {
+    std::string status, reason;
+    catalog::Provenance provenance;
+    std::optional<catalog::ShapeRecord> shape;
+  };
+  Prepared prepare(std::size_t scan);
+  DigitizedScan stored(std::size_t scan, Prepared&& prepared);
+
+  DigitizeBatchOptions options_;
+  shape_pipeline::DigitizationOptions digitization_;
+  std::vector<std::filesystem::path> scans_;
+  std::vector<std::string> names_;
+  std::optional<catalog::ShapeCatalog> catalog_;  // none if every scan is missing
+  std::mutex catalog_use_;
+  BatchProgress progress_;
+  std::map<std::string, shape_pipeline::ScanTruth> truths_;
+  std::vector<DigitizedScan> outcomes_;
+};
+
+/// A heading and a line for each bad scan with its name and the first of its reasons; empty if there is none.
+std::string failures_text(const std::vector<DigitizedScan>& outcomes);
+
+}  // namespace workflows
