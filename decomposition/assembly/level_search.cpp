@@ -41,7 +41,18 @@ constexpr double kBetterApart = 1.1;  // joint error over that of single pieces
 constexpr double kBoundWeight = 4;    // of what a bound forbids against what it allows, while the bound is not kept yet
 constexpr int kFitSteps = 500;        // of parts fitted alone, beside exact pieces
 constexpr double kFitTries = 3;       // at effort 1
-constexpr double kExactSnap = 1e-9;   // of the size: fitted points touch their cut planes already
+constexpr int kVolumeRounds = 4;      // of fitting them anew until the union has the solid's volume ...
+constexpr double kVolumeAgreement = 2e-4;                 // ... to this share
+constexpr double kLeastFactor = 0.8, kMostFactor = 1.25;  // of the volume asked of parts fitted alone
+constexpr double kExactSnap = 1e-9;                       // of the size: fitted points touch their cut planes already
+
+Vec3 middle_of(const std::vector<std::vector<Vec3>>& parts) {
+  Vec3 sum;
+  std::size_t count = 0;
+  for (const std::vector<Vec3>& points : parts)
+    for (const Vec3& p : points) sum += p, ++count;
+  return (1.0 / static_cast<double>(count)) * sum;
+}
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -230,9 +241,25 @@ LevelSearch::Finish LevelSearch::finished(Partition partition) const {
     const Bound bound = options_.mode == FitMode::enclosing ? Bound::holds_solid : Bound::stays_inside;
     if (!fit_to_bound(solid_, partition, plan, rules(), bound)) return {};
   }
-  const std::vector<std::vector<Vec3>> points = part_points(solid_, partition);
   Finish finish;
   finish.misfit = joint_misfit(solid_, partition);
+  const Vec3 centre = middle_of(part_points(solid_, partition));
+  // What the rules take while the parts are built, and what own points could not make up for, comes back by scaling.
+  for (int round = 0; round < kVolumeRounds; ++round) {
+    finish.parts = built(partition);
+    if (finish.parts.empty() || options_.mode != FitMode::volume_true) break;
+    double volume = 0;
+    for (const BuiltPart& part : finish.parts) volume += figures({part.part}).smallest_volume;
+    const double ratio = solid_.volume() / volume;
+    if (std::abs(ratio - 1) < kVolumeAgreement) break;
+    scale_volume(partition, centre, ratio);
+  }
+  return finish;
+}
+
+std::vector<BuiltPart> LevelSearch::built(const Partition& partition) const {
+  const std::vector<std::vector<Vec3>> points = part_points(solid_, partition);
+  std::vector<BuiltPart> parts;
   for (std::size_t a = 0; a < points.size(); ++a) {
     Cell cell;
     cell.planes = partition.planes_of(partition.leaves[a].sides);
@@ -243,9 +270,9 @@ LevelSearch::Finish LevelSearch::finished(Partition partition) const {
                                         ? build_part(points[a], cell, snap)
                                         : build_part_by_rules(points[a], cell, snap, rules());
     if (!part) return {};
-    finish.parts.push_back(std::move(*part));
+    parts.push_back(std::move(*part));
   }
-  return finish;
+  return parts;
 }
 
 FoundLevel LevelSearch::found_jointly(int count) {
@@ -274,12 +301,15 @@ bool LevelSearch::is_acceptable(const std::vector<BuiltPart>& parts) const {
   });
 }
 
-std::optional<BuiltPart> LevelSearch::fitted_alone(const Piece& piece, int number) const {
+std::optional<BuiltPart> LevelSearch::fitted_alone(const Piece& piece, int number, double volume_factor) const {
   if (piece.is_exact) return build_part(piece.fit.points, piece.cell, kExactSnap * solid_.diagonal());
   FitPlan plan;
   plan.vertices = options_.vertex_cap;
+  // A hull of V points has at most 2 V - 4 faces: with fewer points none need go for the faces' sake.
+  if (options_.face_cap > 0) plan.vertices = std::min(plan.vertices, options_.face_cap / 2 + 2);
   plan.steps = kFitSteps;
-  plan.volume = piece.region.volume * solid_.volume() / columns_volume_;  // the targets add up to the mesh's volume
+  plan.volume = volume_factor * piece.region.volume * solid_.volume() /
+                columns_volume_;  // the targets add up to the mesh's volume
   plan.seed = sub_seed(options_.seed, 1000003ull + static_cast<std::uint64_t>(number));
   const int tries = std::max(1, static_cast<int>(std::lround(kFitTries * options_.effort)));
   const PartFit fit = finish_part(solid_, piece.cell.planes, piece.region, plan, tries);
@@ -303,19 +333,43 @@ bool LevelSearch::fits_better_apart(const CutTree& tree, int count) {
          solid_.volume() + starts(count).front().misfit > kBetterApart * apart;
 }
 
-FoundLevel LevelSearch::found_apart(const CutTree& tree, int count) const {
-  const std::vector<int> pieces = tree.pieces(count);
+/// The parts of all pieces, fitted alone; none if one cannot be.
+std::vector<BuiltPart> LevelSearch::all_alone(const CutTree& tree, const std::vector<int>& pieces,
+                                              double volume_factor) const {
   std::vector<std::optional<BuiltPart>> made(pieces.size());
   parallel_for(static_cast<int>(pieces.size()), threads(), [&](int i) {
     const auto k = static_cast<std::size_t>(i);
-    made[k] = fitted_alone(tree.piece(pieces[k]), pieces[k]);
+    made[k] = fitted_alone(tree.piece(pieces[k]), pieces[k], volume_factor);
   });
-  FoundLevel level;
+  std::vector<BuiltPart> parts;
   for (std::optional<BuiltPart>& part : made) {
     if (!part) return {};
-    level.parts.push_back(std::move(*part));
+    parts.push_back(std::move(*part));
   }
-  if (!is_acceptable(level.parts)) return {};
+  return parts;
+}
+
+FoundLevel LevelSearch::found_apart(const CutTree& tree, int count) const {
+  const std::vector<int> pieces = tree.pieces(count);
+  FoundLevel level;
+  double factor = 1, least = std::numeric_limits<double>::infinity();
+  // Walls and rules keep some pieces from their volume: the others make up for it, as far as they can.
+  for (int round = 0; round < kVolumeRounds; ++round) {
+    std::vector<BuiltPart> parts = all_alone(tree, pieces, factor);
+    if (parts.empty()) break;
+    double fitted_volume = 0, lack = solid_.volume();
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const double volume = figures({parts[k].part}).smallest_volume;
+      if (!tree.piece(pieces[k]).is_exact) fitted_volume += volume;
+      lack -= volume;
+    }
+    if (std::abs(lack) < least && is_acceptable(parts)) {
+      least = std::abs(lack);
+      level.parts = std::move(parts);
+    }
+    if (fitted_volume == 0 || std::abs(lack) < kVolumeAgreement * solid_.volume()) break;
+    factor = std::clamp(factor * (1 + lack / fitted_volume), kLeastFactor, kMostFactor);
+  }
   return level;
 }
 

@@ -60,10 +60,12 @@ class LevelSearch {
     double misfit = 0;
   };
   Finish finished(Partition partition) const;
+  std::vector<BuiltPart> built(const Partition& partition) const;
   FoundLevel found_jointly(int count);
   bool fits_better_apart(const CutTree& tree, int count);
   FoundLevel found_apart(const CutTree& tree, int count) const;
-  std::optional<BuiltPart> fitted_alone(const Piece& piece, int number) const;
+  std::vector<BuiltPart> all_alone(const CutTree& tree, const std::vector<int>& pieces, double volume_factor) const;
+  std::optional<BuiltPart> fitted_alone(const Piece& piece, int number, double volume_factor) const;
   bool is_acceptable(const std::vector<BuiltPart>& parts) const;
 
   DecompositionOptions options_;

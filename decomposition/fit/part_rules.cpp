@@ -204,6 +204,20 @@ void drop_dead_points(const Solid& solid, Partition& partition) {
   }
 }
 
+void scale_volume(Partition& partition, const Vec3& centre, double ratio) {
+  const double factor = std::cbrt(ratio);
+  const auto scale = [&](std::vector<Vec3>& points) {
+    for (Vec3& p : points) p = centre + factor * (p - centre);
+  };
+  for (Cut& cut : partition.cuts)
+    cut.plane.offset = factor * cut.plane.offset + (1 - factor) * dot(cut.plane.normal, centre);
+  for (Section& section : partition.sections) scale(section.corners);
+  for (Leaf& leaf : partition.leaves) {
+    scale(leaf.points);
+    scale(leaf.dropped);
+  }
+}
+
 void correct_volume(const Solid& solid, Partition& partition, double volume) {
   std::vector<LeafShape> shapes = shapes_of(solid, partition);
   if (shapes.empty()) return;

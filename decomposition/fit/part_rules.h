@@ -36,4 +36,7 @@ void drop_dead_points(const Solid& solid, Partition& partition);
 /// Moves the own points along the surface's normal until the union has the volume.
 void correct_volume(const Solid& solid, Partition& partition, double volume);
 
+/// Scales the whole partition, cuts included, to `ratio` of its volume: no rule and no seam is touched.
+void scale_volume(Partition& partition, const Vec3& centre, double ratio);
+
 }  // namespace decomposition
