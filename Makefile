@@ -7,7 +7,7 @@ CUDA_ARCHITECTURES ?= 90
 NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
 STAGES := talus talus-digitize talus-decompose talus-catalog talus-simulate talus-post
 
-.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy gpu-check exact-pairs format check-format clean
+.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy gpu-check exact-pairs large-mesh format check-format clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -70,6 +70,10 @@ exact-pairs: $(BUILD)/CMakeCache.txt  ## A million random pairs against exact ar
 	cmake --build $(BUILD) --parallel $(JOBS) --target dem_exact_test
 	TALUS_EXACT_PAIRS=$(or $(PAIRS),1000000) TALUS_EXACT_TABLE=$(BUILD)/exact_pairs.md $(BUILD)/tests/dem_exact_test
 	cat $(BUILD)/exact_pairs.md
+
+large-mesh: $(BUILD)/CMakeCache.txt  ## Memory and time of decomposing 2,000,000 faces (10 CPU seconds); FACES=number
+	cmake --build $(BUILD) --parallel $(JOBS) --target test_large_mesh
+	TALUS_LARGE_FACES=$(or $(FACES),2000000) $(BUILD)/tests/test_large_mesh
 
 format:  ## Format every source file
 	git ls-files '*.cpp' '*.h' | xargs clang-format -i
