@@ -14,7 +14,7 @@ plots=docs/results/plots
 for folder in "$build" ${mixed:+"$mixed"}; do
   [ -x "$folder/bin/talus" ] || { echo "accuracy_report: no $folder/bin/talus; build it first" >&2; exit 2; }
 done
-: "${BENCHES:=$("$build/bin/talus" bench --list | sed -n '/^levels:/d; s/^\([a-z_]*\):.*/\1/p')}"
+: "${BENCHES:=$("$build/bin/talus" bench --list | sed -n '/^levels:/d; /^parts:/d; s/^\([a-z_]*\):.*/\1/p')}"
 : "${MIXED_BENCHES:=overlap contact laws bulk pile}"
 
 work=$(mktemp -d)
