@@ -35,26 +35,17 @@ validation_tables() {
   sed -n '/tests passed/p; /(Failed)/p; /(Timeout)/p' "$work/log"
 }
 
-# Runs a bench of a build folder into BUILD/accuracy, unless it has run there since the bench was built: what was stopped
-# goes on, and `make accuracy BENCHES=bulk` adds one bench to a page.
-run_bench() {
-  kept=$1/accuracy
-  if [ -e "$kept/$2.status" ] && [ "$kept/$2.status" -nt "$1/bin/talus-bench" ]; then return; fi
-  mkdir -p "$kept"
-  rm -f "$kept/$2.md" "$kept/${2}"_*.svg
-  echo "accuracy_report: $(basename "$1"): talus bench $2" >&2
-  status=0
-  "$1/bin/talus" bench "$2" --json "$kept/$2.json" --out "$kept" >/dev/null || status=$?
-  echo "$status" >"$kept/$2.status"
-}
-
-# Tables of the named benches of a build folder; their plots go to a folder below docs/.
+# Tables of the named benches of a build folder; their plots go to a folder below docs/. Cases that have run since the
+# benches were built are kept in BUILD/accuracy: what was stopped goes on.
 bench_tables() {
-  mkdir -p "$2"
+  kept=$1/accuracy
+  if [ ! -e "$kept/begun" ] || [ "$1/bin/talus-bench" -nt "$kept/begun" ]; then rm -rf "$kept"; fi
+  mkdir -p "$kept" "$2"
+  [ -e "$kept/begun" ] || touch "$kept/begun"
   for bench in $3; do
-    run_bench "$1" "$bench"
-    kept=$1/accuracy
-    read -r status <"$kept/$bench.status"
+    echo "accuracy_report: $(basename "$1"): talus bench $bench" >&2
+    status=0
+    "$1/bin/talus" bench "$bench" --json "$kept/$bench.json" --resume >/dev/null || status=$?
     echo
     if [ "$status" -ne 0 ] && [ "$status" -ne 4 ]; then
       echo "**\`talus bench $bench\` ended with status $status**"
@@ -62,10 +53,9 @@ bench_tables() {
     fi
     sed 's/^# /### /' "$kept/$bench.md"
     for plot in "$kept/${bench}"_*.svg; do
-      if [ -e "$plot" ]; then
-        cp "$plot" "$2/"
-        printf '\n%s\n' "![$(basename "$plot" .svg)](${2#docs/}/$(basename "$plot"))"
-      fi
+      [ -e "$plot" ] || continue
+      cp "$plot" "$2/"
+      printf '\n%s\n' "![$(basename "$plot" .svg)](${2#docs/}/$(basename "$plot"))"
     done
   done
 }
