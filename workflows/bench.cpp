@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -10,6 +11,7 @@
 #include "workflows/atomic_file.h"
 #include "workflows/bench/bench_registry.h"
 #include "workflows/bench/bench_report.h"
+#include "workflows/bench/case_file.h"
 #include "workflows/bench/log_plot.h"
 #include "workflows/stage_tool.h"
 
@@ -27,7 +29,8 @@ Measures speed and error on named cases.
   talus bench laws --case face-slide-depth
 
 The table goes to stdout. --json FILE writes one JSON object a line; beside it stand the table in Markdown and the plots
-in SVG. Exit status 4 if a goal is missed or a run failed.)";
+in SVG; the finished cases are kept in FILE.cases, so that a bench that was stopped goes on with --resume. Exit status 4
+if a goal is missed or a run failed.)";
 
 struct Options {
   std::string bench;
@@ -37,6 +40,7 @@ struct Options {
   std::vector<int> threads;
   fs::path catalogue;  // empty: none
   bool is_list = false;
+  bool resumes = false;  // with the cases that are kept
 };
 
 /// The options; or, where the command line ends here (--help, or an error), the exit status.
@@ -51,7 +55,8 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
                  "thread counts to compare, such as 1,2; default: the engine's own choice")
       ->delimiter(',')
       ->check(CLI::Range(1, 1000000));
-  app.add_option("--catalog", options.catalogue, "shape catalogue, for the bench levels");
+  app.add_option("--catalog", options.catalogue, "shape catalogue, for the benches levels and parts");
+  app.add_flag("--resume", options.resumes, "measure only the cases that an earlier run with this --json has not");
   app.add_flag("--list", options.is_list, "name the benches and their cases");
   app.set_version_flag("--version", tool_version());
   try {
@@ -63,6 +68,8 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
     throw catalog::UsageError("no NAME; talus bench --list names the benches");
   if (!options.json.empty() && options.out.empty()) options.out = fs::absolute(options.json).parent_path();
   if (options.json.empty() && !options.out.empty()) options.json = options.out / (options.bench + ".json");
+  if (options.resumes && options.json.empty())
+    throw catalog::UsageError("--resume needs the --json FILE (or --out) of the run that was stopped");
   return options;
 }
 
@@ -99,12 +106,32 @@ struct Measured {
   std::vector<PlotCurve> curves;
 };
 
+/// Where the case is kept; empty if nothing is written.
+fs::path case_file(const Options& options, const BenchCase& bench_case) {
+  if (options.json.empty()) return {};
+  std::string name = bench_case.name;
+  std::replace(name.begin(), name.end(), '/', '_');
+  return fs::path(options.json.string() + ".cases") / (name + ".json");
+}
+
+CaseResult measure_or_keep(const BenchCase& bench_case, const Options& options) {
+  const fs::path file = case_file(options, bench_case);
+  if (options.resumes)
+    if (std::optional<CaseResult> kept = read_case(file)) return std::move(*kept);
+  CaseResult result = bench_case.measure();
+  if (!file.empty()) {
+    fs::create_directories(file.parent_path());
+    write_case(file, result);
+  }
+  return result;
+}
+
 Measured measure(const std::vector<BenchCase>& cases, const Options& options) {
   Measured measured;
   BatchProgress progress("bench " + options.bench, static_cast<int>(cases.size()));
   for (const BenchCase& bench_case : cases) {
     progress.step(bench_case.name);
-    CaseResult result = bench_case.measure();
+    CaseResult result = measure_or_keep(bench_case, options);
     for (Figure& figure : result.figures)
       measured.figures.push_back({options.bench, bench_case.name, std::move(figure), command_of(options, bench_case)});
     for (PlotCurve& curve : result.curves) measured.curves.push_back(std::move(curve));

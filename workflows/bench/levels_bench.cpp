@@ -1,43 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Levels of detail of a catalogue's shapes: error against what a contact of such bodies costs the engine.
-#include <algorithm>
-#include <cmath>
-#include <map>
-
 #include "catalog/input_error.h"
-#include "catalog/shape_catalog.h"
 #include "workflows/bench/bench_registry.h"
 #include "workflows/bench/bench_shapes.h"
+#include "workflows/bench/catalogue_levels.h"
 #include "workflows/bench/laws/laws_cases.h"
-#include "workflows/level_choice.h"
 
 namespace workflows {
 namespace {
 
-namespace fs = std::filesystem;
-
 const dem_gpu::PolyhedralLaw kLaw = dem_gpu::DepthPotential{1};
 
-/// The level at a volume of 1, so that the depths of the pairs are shares of the size.
-dem_gpu::Shape unit_shape(const std::string& name, catalog::LevelOfDetail level) {
-  const double size = std::cbrt(level.mass_properties.volume);
-  for (catalog::ConvexPart& part : level.parts) {
-    for (catalog::Point& p : part.vertices)
-      for (double& x : p) x /= size;
-    for (catalog::ConvexFace& face : part.faces) face.plane.offset /= size;
-  }
-  return dem_gpu::polyhedral_shape(name, level.parts);
-}
-
 /// All levels of one shape and one vertex cap.
-CaseResult measure_ladder(const fs::path& path, const catalog::ShapeSummary& shape, const std::vector<Level>& ladder) {
-  const catalog::ShapeCatalog catalogue(path, catalog::ShapeCatalog::Access::read_only);
+CaseResult measure_ladder(const ShapeLevels& levels, int cap) {
   const dem_gpu::Shape cube = box_shape({1, 1, 1});
   const double cube_time = time_per_pair(cube, cube, kLaw);
   CaseResult result;
-  PlotCurve curve{"front", shape.name + ", " + std::to_string(ladder.front().vertex_cap) + " vertices", {}, {}, {}};
-  for (const Level& level : ladder) {
-    const dem_gpu::Shape body = unit_shape(shape.name, catalogue.level(shape.id, level.parts_asked, level.vertex_cap));
+  PlotCurve curve{"front", levels.shape.name + ", " + std::to_string(cap) + " vertices", {}, {}, {}};
+  for (const Level& level : levels.shape.levels) {
+    if (level.vertex_cap != cap) continue;
+    const dem_gpu::Shape body = levels.unit_shape(level);
     const double cost = time_per_pair(body, body, kLaw) / cube_time;
     const std::string parts = std::to_string(level.parts_asked) + " parts: ";
     result.figures.push_back({parts + "symmetric difference", level.error.symmetric_difference, "-", {}, ""});
@@ -63,18 +45,10 @@ BenchPlan plan_levels_bench(const BenchOptions& options) {
                    }}};
     return plan;
   }
-  const fs::path path = options.catalogue;
-  const catalog::ShapeCatalog catalogue(path, catalog::ShapeCatalog::Access::read_only);
-  for (const catalog::ShapeId id : catalogue.select("")) {
-    const catalog::ShapeSummary shape = catalogue.summary(id);
-    std::map<int, std::vector<Level>> ladders;
-    for (const Level& level : shape.levels) ladders[level.vertex_cap].push_back(level);
-    for (const auto& [cap, ladder] : ladders)
-      plan.cases.push_back({shape.name + "-" + std::to_string(cap),
-                            [path, shape, ladder = ladder] { return measure_ladder(path, shape, ladder); }});
-  }
-  if (plan.cases.empty())
-    throw catalog::InputError(path.string() + ": has no levels of detail; make them with talus decompose");
+  for (const ShapeLevels& levels : levels_of_catalogue(options.catalogue))
+    for (const int cap : levels.vertex_caps())
+      plan.cases.push_back(
+          {levels.shape.name + "-" + std::to_string(cap), [levels, cap] { return measure_ladder(levels, cap); }});
   return plan;
 }
 
