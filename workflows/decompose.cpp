@@ -86,7 +86,6 @@ Scans digitized(const CommandLine& line) {
   options.catalog_path = line.into;
   options.settings.unit = line.unit;
   options.settings.genus = line.genus;
-  options.threads = line.batch.quality.threads;
   DigitizeBatch batch(options);
   batch.run();
   Scans scans;

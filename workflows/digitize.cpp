@@ -63,8 +63,6 @@ void declare_options(CLI::App& app, CommandLine& line) {
                "drop points that are no numbers instead of refusing the cloud");
   app.add_option("--truth", line.batch.truth_path,
                  "JSON of known volumes and areas: checks the error of each scan named in it");
-  app.add_option("--threads", line.batch.threads, "scans at a time; 0: as many as the machine has")
-      ->check(CLI::Range(0, 1024));
   app.add_flag("--json", line.is_json, "one JSON object a scan on stdout");
   app.add_option("--make-virtual-scans", line.virtual_scan_folder, "write virtual scans into this folder and stop");
   app.add_option("--count", line.count, "virtual scans")->check(CLI::Range(1, 10000))->capture_default_str();

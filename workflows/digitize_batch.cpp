@@ -141,7 +141,8 @@ DigitizeBatch::DigitizeBatch(const DigitizeBatchOptions& options)
 void DigitizeBatch::run() {
   OrderedWork<Prepared> work;
   work.count = static_cast<int>(scans_.size());
-  work.threads = threads_to_use(options_.threads);
+  // CGAL's Poisson function orders its cells by address: side by side, a cloud's mesh would depend on the threads.
+  work.threads = 1;
   work.begin = [&](int s) { progress_.step(scans_[static_cast<std::size_t>(s)].filename().string()); };
   work.make = [&](int s) { return prepare(static_cast<std::size_t>(s)); };
   work.take = [&](int s, Prepared&& prepared) {

@@ -26,7 +26,6 @@ struct DigitizeBatchOptions {
   std::filesystem::path catalog_path, truth_path;
   std::string name;  // of the only scan; empty: the file's name without ending
   ScanSettings settings;
-  int threads = 0;  // 0: as many as the machine has
 };
 
 struct DigitizedScan {
@@ -38,10 +37,10 @@ struct DigitizedScan {
   bool is_bad() const { return status == "rejected" || status == "missing"; }
 };
 
-/// Scans into a catalogue, several at a time, stored in the order of their names whatever the number of threads. A scan
-/// that is there from the same bytes with the same options is skipped; a bad one is kept as rejected with its reason,
-/// and the batch goes on. The constructor throws catalog::InputError or UsageError for options that fit no batch, and
-/// for a catalogue that cannot be opened; run() where it cannot be written.
+/// Scans into a catalogue, one after the other. A scan that is there from the same bytes with the same options is
+/// skipped; a bad one is kept as rejected with its reason, and the batch goes on. The constructor throws
+/// catalog::InputError or UsageError for options that fit no batch, and for a catalogue that cannot be opened; run()
+/// where it cannot be written.
 class DigitizeBatch {
  public:
   explicit DigitizeBatch(const DigitizeBatchOptions& options);
