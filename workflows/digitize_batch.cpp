@@ -163,7 +163,6 @@ DigitizeBatch::Prepared DigitizeBatch::prepare(std::size_t s) {
   result.provenance.options = options_text(options_.settings, truth);
   result.reason = refusal(scan, [&] { result.provenance.source_sha256 = catalog::sha256_of_file(scan); });
   if (result.reason.empty()) {
-    const std::lock_guard lock(catalog_use_);
     if (const auto id = catalog_->find(names_[s]); id && is_same(catalog_->shape(*id).provenance, result.provenance)) {
       result.status = "skipped";
       return result;
@@ -176,7 +175,6 @@ DigitizeBatch::Prepared DigitizeBatch::prepare(std::size_t s) {
 }
 
 DigitizedScan DigitizeBatch::stored(std::size_t s, Prepared&& prepared) {
-  const std::lock_guard lock(catalog_use_);
   const std::string& name = names_[s];
   DigitizedScan outcome{scans_[s], name, prepared.status, prepared.reason, {}};
   if (prepared.status == "missing") progress_.note(prepared.reason);

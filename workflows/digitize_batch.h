@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <map>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,7 +63,6 @@ class DigitizeBatch {
   std::vector<std::filesystem::path> scans_;
   std::vector<std::string> names_;
   std::optional<catalog::ShapeCatalog> catalog_;  // none if every scan is missing
-  std::mutex catalog_use_;
   BatchProgress progress_;
   std::map<std::string, shape_pipeline::ScanTruth> truths_;
   std::vector<DigitizedScan> outcomes_;
