@@ -89,11 +89,11 @@ inline bool are_separated(const catalog::ConvexPart& a, const catalog::ConvexPar
 
 /// Sound parts, every pair separated by a face plane without any tolerance, so that no two parts overlap.
 inline void expect_partition(const catalog::LevelOfDetail& level) {
-  EXPECT_LE(level.parts.size(), static_cast<std::size_t>(level.parts_asked));
+  EXPECT_LE(level.parts.size(), static_cast<std::size_t>(level.key.parts_asked));
   ASSERT_FALSE(level.parts.empty());
   std::vector<catalog::FacePlane> planes;
   for (const catalog::ConvexPart& part : level.parts) {
-    expect_sound_part(part, level.vertex_cap);
+    expect_sound_part(part, level.key.vertex_cap);
     for (const catalog::ConvexFace& face : part.faces) planes.push_back(face.plane);
   }
   for (std::size_t a = 0; a < level.parts.size(); ++a)

@@ -29,23 +29,37 @@ dem_gpu::Shape unit_shape(const std::string& name, catalog::LevelOfDetail level)
   return dem_gpu::polyhedral_shape(name, level.parts);
 }
 
-/// All levels of one shape and one vertex cap.
+/// What the levels of one ladder have in common: "64", "64-f34-enclosing".
+std::string ladder_name(const catalog::LevelKey& key) {
+  std::string name = std::to_string(key.vertex_cap);
+  if (key.face_cap > 0) name += "-f" + std::to_string(key.face_cap);
+  return key.mode == catalog::FitMode::volume_true ? name : name + "-" + mode_name(key.mode);
+}
+
+/// The same in words.
+std::string ladder_text(const catalog::LevelKey& key) {
+  std::string text = std::to_string(key.vertex_cap) + " vertices";
+  if (key.face_cap > 0) text += ", " + std::to_string(key.face_cap) + " faces";
+  return key.mode == catalog::FitMode::volume_true ? text : text + ", " + mode_name(key.mode);
+}
+
+/// All levels of one shape, one mode, one cap of vertices and one of faces.
 CaseResult measure_ladder(const fs::path& path, const catalog::ShapeSummary& shape, const std::vector<Level>& ladder) {
   const catalog::ShapeCatalog catalogue(path, catalog::ShapeCatalog::Access::read_only);
   const dem_gpu::Shape cube = box_shape({1, 1, 1});
   const double cube_time = time_per_pair(cube, cube, kLaw);
   CaseResult result;
-  PlotCurve curve{"front", shape.name + ", " + std::to_string(ladder.front().vertex_cap) + " vertices", {}, {}, {}};
+  PlotCurve curve{"front", shape.name + ", " + ladder_text(ladder.front().key), {}, {}, {}};
   for (const Level& level : ladder) {
-    const dem_gpu::Shape body = unit_shape(shape.name, catalogue.level(shape.id, level.parts_asked, level.vertex_cap));
+    const dem_gpu::Shape body = unit_shape(shape.name, catalogue.level(shape.id, level.key));
     const double cost = time_per_pair(body, body, kLaw) / cube_time;
-    const std::string parts = std::to_string(level.parts_asked) + " parts: ";
+    const std::string parts = std::to_string(level.key.parts_asked) + " parts: ";
     result.figures.push_back({parts + "symmetric difference", level.error.symmetric_difference, "-", {}, ""});
     result.figures.push_back({parts + "time of a contact over that of cubes", cost, "-", {}, ""});
     result.figures.push_back({parts + "contact_cost over that", contact_cost(level) / cost, "-", {}, ""});
     curve.x.push_back(cost);
     curve.y.push_back(level.error.symmetric_difference);
-    curve.point_names.push_back(std::to_string(level.parts_asked));
+    curve.point_names.push_back(std::to_string(level.key.parts_asked));
   }
   result.curves.push_back(std::move(curve));
   return result;
@@ -67,11 +81,11 @@ BenchPlan plan_levels_bench(const BenchOptions& options) {
   const catalog::ShapeCatalog catalogue(path, catalog::ShapeCatalog::Access::read_only);
   for (const catalog::ShapeId id : catalogue.select("")) {
     const catalog::ShapeSummary shape = catalogue.summary(id);
-    std::map<int, std::vector<Level>> ladders;
-    for (const Level& level : shape.levels) ladders[level.vertex_cap].push_back(level);
-    for (const auto& [cap, ladder] : ladders)
-      plan.cases.push_back({shape.name + "-" + std::to_string(cap),
-                            [path, shape, ladder = ladder] { return measure_ladder(path, shape, ladder); }});
+    std::map<std::string, std::vector<Level>> ladders;
+    for (const Level& level : shape.levels) ladders[ladder_name(level.key)].push_back(level);
+    for (const auto& [name, ladder] : ladders)
+      plan.cases.push_back(
+          {shape.name + "-" + name, [path, shape, ladder = ladder] { return measure_ladder(path, shape, ladder); }});
   }
   if (plan.cases.empty())
     throw catalog::InputError(path.string() + ": has no levels of detail; make them with talus decompose");
