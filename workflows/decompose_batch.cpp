@@ -10,7 +10,6 @@
 #include <optional>
 
 #include "catalog/input_error.h"
-#include "decomposition/decomposition_quality.h"
 #include "workflows/error_json.h"
 #include "workflows/stage_tool.h"
 
@@ -37,23 +36,19 @@ bool is_current(const catalog::Provenance& stored, const std::string& hash,
          kept["options"] == Json::parse(decomposition::options_json(options));
 }
 
-/// The level as stored if it need not be made again. One that came from an older schema lacks errors: they are measured
-/// and stored now.
-std::optional<LevelOfDetail> kept_level(catalog::ShapeCatalog& shapes, catalog::ShapeId id,
-                                        const catalog::TriangleMesh& mesh, const std::string& hash,
-                                        decomposition::DecompositionOptions options, int parts) {
+/// The level as stored if it need not be made again. One that came from an older schema lacks errors, so it is.
+std::optional<LevelOfDetail> kept_level(const catalog::ShapeCatalog& shapes, catalog::ShapeId id,
+                                        const std::string& hash, decomposition::DecompositionOptions options,
+                                        int parts) {
   options.parts = parts;
   const catalog::LevelKey key{parts, options.vertex_cap, options.face_cap, options.mode};
   const catalog::ShapeSummary summary = shapes.summary(id);
-  const bool is_there =
-      std::any_of(summary.levels.begin(), summary.levels.end(), [&](const auto& level) { return level.key == key; });
+  const bool is_there = std::any_of(summary.levels.begin(), summary.levels.end(), [&](const auto& level) {
+    return level.key == key && !std::isnan(level.error.convexity_error);
+  });
   if (!is_there) return std::nullopt;
   LevelOfDetail level = shapes.level(id, key);
   if (!is_current(level.provenance, hash, options)) return std::nullopt;
-  if (std::isnan(level.error.convexity_error)) {
-    level.error = decomposition::measure_error(mesh, level.parts);
-    shapes.store_levels(id, {level});
-  }
   return level;
 }
 
@@ -66,7 +61,7 @@ std::vector<DecomposedLevel> ladder_of(catalog::ShapeCatalog& shapes, catalog::S
   std::vector<int> missing;
   for (const int parts : part_counts) {
     DecomposedLevel level{shape.name, {}, false, 0};
-    if (auto kept = kept_level(shapes, id, shape.mesh, hash, quality, parts))
+    if (auto kept = kept_level(shapes, id, hash, quality, parts))
       level.level = std::move(*kept);
     else {
       level.is_new = true;

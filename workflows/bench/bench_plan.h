@@ -62,11 +62,14 @@ struct PlotAxes {
 struct BenchPlan {
   std::vector<BenchCase> cases;
   std::vector<PlotAxes> plots;
+  std::function<std::string()> page{};  // Markdown of what the cases run have measured; empty: a table of all figures
 };
 
 struct BenchOptions {
   std::vector<int> threads;         // counts to compare, where a bench runs the engine's threads
   std::filesystem::path catalogue;  // of shapes, where a bench measures them
+  std::filesystem::path scans;      // folder of scans, where a bench measures them
+  int seeds = 5;                    // of searches, where a bench takes the median over them
 };
 
 }  // namespace workflows

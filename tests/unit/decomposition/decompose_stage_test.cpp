@@ -103,7 +103,7 @@ TEST(DecomposeStage, KeepsWhatIsCurrentAndRemakesWhatIsNot) {
   EXPECT_EQ(made_new(), 3);
 }
 
-TEST(DecomposeStage, ErrorsThatAnOlderCatalogueLacksAreMeasuredWithoutASearch) {
+TEST(DecomposeStage, ALevelWithoutTheErrorsOfTodayIsMadeAnew) {
   const TemporaryFolder folder;
   catalog::ShapeCatalog shapes = small_catalog(folder / "ore.talus");
   DecomposeBatchOptions options = one_and_two();
@@ -115,7 +115,9 @@ TEST(DecomposeStage, ErrorsThatAnOlderCatalogueLacksAreMeasuredWithoutASearch) {
   catalog::LevelOfDetail old = made;
   old.error.surface.percentile_95 = old.error.convexity_error = std::numeric_limits<double>::quiet_NaN();
   shapes.store_levels(id, {old});
-  EXPECT_FALSE(decompose_shapes(shapes, options, quietly).levels[0].is_new);
+  const DecomposeBatchResult result = decompose_shapes(shapes, options, quietly);
+  EXPECT_TRUE(result.levels[0].is_new);
+  EXPECT_FALSE(result.levels[1].is_new);
   EXPECT_EQ(shapes.level(id, {1, 32}).error, made.error);
 }
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "catalog/shape_record.h"
+
+namespace workflows {
+
+/// Time of a contact of two like bodies of that level under the depth potential over that of two cubes [-], measured.
+double measured_contact_cost(const catalog::LevelOfDetail& level);
+
+/// What the levels of one ladder have in common, as part of a case's name: "64", "64-f34-enclosing".
+std::string ladder_name(const catalog::LevelKey& key);
+
+/// The same in words: "64 vertices, 34 faces, enclosing".
+std::string ladder_text(const catalog::LevelKey& key);
+
+}  // namespace workflows
