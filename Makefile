@@ -7,7 +7,7 @@ CUDA_ARCHITECTURES ?= 90
 NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
 STAGES := talus talus-digitize talus-decompose talus-catalog talus-simulate talus-post
 
-.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy gpu-check exact-pairs format check-format clean
+.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy gpu-check exact-pairs decomposition format check-format clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -70,6 +70,15 @@ exact-pairs: $(BUILD)/CMakeCache.txt  ## A million random pairs against exact ar
 	cmake --build $(BUILD) --parallel $(JOBS) --target dem_exact_test
 	TALUS_EXACT_PAIRS=$(or $(PAIRS),1000000) TALUS_EXACT_TABLE=$(BUILD)/exact_pairs.md $(BUILD)/tests/dem_exact_test
 	cat $(BUILD)/exact_pairs.md
+
+ifeq ($(SCANS),)
+decomposition:
+	@echo 'decomposition: state where the scans lie, such as make decomposition SCANS=../shared/data/real' >&2; exit 2
+else
+decomposition: $(BUILD)/CMakeCache.txt  ## Decomposition of real scans against its goals; SCANS=folder; writes docs/results/decomposition.md
+	cmake --build $(BUILD) --parallel $(JOBS) --target talus talus-bench
+	$(BUILD)/bin/talus bench decomposition --scans "$(SCANS)" --out docs/results || [ $$? -eq 4 ]
+endif
 
 format:  ## Format every source file
 	git ls-files '*.cpp' '*.h' | xargs clang-format -i

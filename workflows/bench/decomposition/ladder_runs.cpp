@@ -22,9 +22,19 @@ bool is_on_side(const catalog::ConvexPart& part, const catalog::FacePlane& plane
   });
 }
 
-/// Pairs that no face's plane separates; those of cuts, which do, are tried first.
+std::vector<double> figures_of(const std::vector<LevelRun>& runs,
+                               const std::function<double(const LevelRun&)>& figure) {
+  std::vector<double> figures;
+  for (const LevelRun& run : runs) figures.push_back(figure(run));
+  std::sort(figures.begin(), figures.end());
+  return figures;
+}
+
+}  // namespace
+
 int overlapping_pairs(const std::vector<catalog::ConvexPart>& parts) {
   std::vector<catalog::FacePlane> planes;
+  // Those of the cuts separate most pairs and are tried first.
   for (const catalog::FaceKind kind : {catalog::FaceKind::inner, catalog::FaceKind::outer})
     for (const catalog::ConvexPart& part : parts)
       for (const catalog::ConvexFace& face : part.faces)
@@ -38,16 +48,6 @@ int overlapping_pairs(const std::vector<catalog::ConvexPart>& parts) {
       });
   return count;
 }
-
-std::vector<double> figures_of(const std::vector<LevelRun>& runs,
-                               const std::function<double(const LevelRun&)>& figure) {
-  std::vector<double> figures;
-  for (const LevelRun& run : runs) figures.push_back(figure(run));
-  std::sort(figures.begin(), figures.end());
-  return figures;
-}
-
-}  // namespace
 
 std::vector<LevelRun> run_ladder(const catalog::TriangleMesh& mesh, const std::vector<int>& part_counts,
                                  const decomposition::DecompositionOptions& options) {

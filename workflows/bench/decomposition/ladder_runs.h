@@ -15,9 +15,12 @@ namespace workflows {
 struct LevelRun {
   catalog::LevelOfDetail level;
   decomposition::LevelFigures figures;
-  int overlapping_pairs = 0;  // of parts that no plane of a face separates, without tolerance
+  int overlapping_pairs = 0;  // see overlapping_pairs()
   double cpu_seconds = 0;     // of the ladder it was made in, measuring included
 };
+
+/// Pairs of parts that no plane of any part's face separates, without tolerance.
+int overlapping_pairs(const std::vector<catalog::ConvexPart>& parts);
 
 /// Levels with these numbers of parts, made together.
 std::vector<LevelRun> run_ladder(const catalog::TriangleMesh& mesh, const std::vector<int>& part_counts,
