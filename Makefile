@@ -7,7 +7,7 @@ CUDA_ARCHITECTURES ?= 90
 NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
 STAGES := talus talus-digitize talus-decompose talus-catalog talus-simulate talus-post
 
-.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy gpu-check exact-pairs decomposition format check-format clean
+.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy study gpu-check exact-pairs decomposition format check-format clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -60,6 +60,10 @@ accuracy: install  ## Write docs/accuracy.md: every validation table and bench i
 	for preset in dem-cpu dem-cpu-mixed; do \
 	  cmake --preset $$preset && cmake --build --preset $$preset --parallel $(JOBS) || exit; done
 	workflows/accuracy_report.sh build-dem-cpu build-dem-cpu-mixed
+
+study: install $(BUILD)/CMakeCache.txt  ## How many parts a rock needs: SCAN=rock.stl UNIT=mm (two hours); writes study/parts_per_rock.md
+	cmake --build $(BUILD) --parallel $(JOBS) --target $(STAGES) talus-bench
+	SCAN="$(SCAN)" UNIT="$(or $(UNIT),m)" BUILD=$(BUILD) workflows/studies/parts_per_rock.sh
 
 gpu-check: install  ## On a GPU machine: build the CUDA engine with its tests and run them
 	cmake --preset dem-cuda -DCMAKE_CUDA_ARCHITECTURES=native

@@ -14,7 +14,7 @@ plots=docs/results/plots
 for folder in "$build" ${mixed:+"$mixed"}; do
   [ -x "$folder/bin/talus" ] || { echo "accuracy_report: no $folder/bin/talus; build it first" >&2; exit 2; }
 done
-: "${BENCHES:=$("$build/bin/talus" bench --list | sed -n '/^levels:/d; /^decomposition:/d; s/^\([a-z_]*\):.*/\1/p')}"
+: "${BENCHES:=$("$build/bin/talus" bench --list | sed -n '/^levels:/d; /^parts:/d; /^decomposition:/d; s/^\([a-z_]*\):.*/\1/p')}"
 : "${MIXED_BENCHES:=overlap contact laws bulk pile}"
 
 work=$(mktemp -d)
@@ -35,22 +35,27 @@ validation_tables() {
   sed -n '/tests passed/p; /(Failed)/p; /(Timeout)/p' "$work/log"
 }
 
-# Tables of the named benches of a build folder; their plots go to a folder below docs/.
+# Tables of the named benches of a build folder; their plots go to a folder below docs/. Cases that have run since the
+# benches were built are kept in BUILD/accuracy: what was stopped goes on.
 bench_tables() {
-  mkdir -p "$2"
+  kept=$1/accuracy
+  if [ ! -e "$kept/begun" ] || [ "$1/bin/talus-bench" -nt "$kept/begun" ]; then rm -rf "$kept"; fi
+  mkdir -p "$kept" "$2"
+  [ -e "$kept/begun" ] || touch "$kept/begun"
   for bench in $3; do
     echo "accuracy_report: $(basename "$1"): talus bench $bench" >&2
     status=0
-    "$1/bin/talus" bench "$bench" --json "$work/$bench.json" --out "$2" >/dev/null || status=$?
+    "$1/bin/talus" bench "$bench" --json "$kept/$bench.json" --resume >/dev/null || status=$?
     echo
     if [ "$status" -ne 0 ] && [ "$status" -ne 4 ]; then
       echo "**\`talus bench $bench\` ended with status $status**"
       continue
     fi
-    sed 's/^# /### /' "$2/$bench.md"
-    rm "$2/$bench.md"
-    for plot in "$2/${bench}"_*.svg; do
-      if [ -e "$plot" ]; then printf '\n%s\n' "![$(basename "$plot" .svg)](${plot#docs/})"; fi
+    sed 's/^# /### /' "$kept/$bench.md"
+    for plot in "$kept/${bench}"_*.svg; do
+      [ -e "$plot" ] || continue
+      cp "$plot" "$2/"
+      printf '\n%s\n' "![$(basename "$plot" .svg)](${2#docs/}/$(basename "$plot"))"
     done
   done
 }

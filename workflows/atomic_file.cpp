@@ -33,7 +33,12 @@ void write_whole(const std::filesystem::path& file, const std::string& text) {
   }
   const bool is_flushed = ::fsync(descriptor) == 0;
   if (::close(descriptor) != 0 || !is_flushed) fail("flush");
-  std::filesystem::rename(beside, file);
+  std::error_code error;
+  std::filesystem::rename(beside, file, error);
+  if (error)
+    throw std::runtime_error(file.string() + ": cannot be replaced: " +
+                             (std::filesystem::is_directory(file) ? "it is a folder; move it out of the way"
+                                                                  : error.message() + "; is the folder read-only?"));
 }
 
 std::optional<std::string> read_whole(const std::filesystem::path& file) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -10,6 +11,7 @@
 #include "workflows/atomic_file.h"
 #include "workflows/bench/bench_registry.h"
 #include "workflows/bench/bench_report.h"
+#include "workflows/bench/case_file.h"
 #include "workflows/bench/log_plot.h"
 #include "workflows/stage_tool.h"
 
@@ -27,7 +29,8 @@ Measures speed and error on named cases.
   talus bench laws --case face-slide-depth
 
 The table goes to stdout. --json FILE writes one JSON object a line; beside it stand the table in Markdown and the plots
-in SVG. Exit status 4 if a goal is missed or a run failed.)";
+in SVG; the finished cases are kept in FILE.cases, so that a bench that was stopped goes on with --resume. Exit status 4
+if a goal is missed or a run failed.)";
 
 struct Options {
   std::string bench;
@@ -39,6 +42,7 @@ struct Options {
   fs::path scans;      // empty: none
   int seeds = 5;
   bool is_list = false;
+  bool resumes = false;  // with the cases that are kept
 };
 
 /// The options; or, where the command line ends here (--help, or an error), the exit status.
@@ -53,11 +57,12 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
                  "thread counts to compare, such as 1,2; default: the engine's own choice")
       ->delimiter(',')
       ->check(CLI::Range(1, 1000000));
-  app.add_option("--catalog", options.catalogue, "shape catalogue, for the bench levels");
+  app.add_option("--catalog", options.catalogue, "shape catalogue, for the benches levels and parts");
   app.add_option("--scans", options.scans, "folder of scans, for the bench decomposition");
   app.add_option("--seeds", options.seeds, "searches of each level, for the bench decomposition")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
+  app.add_flag("--resume", options.resumes, "measure only the cases that an earlier run with this --json has not");
   app.add_flag("--list", options.is_list, "name the benches and their cases");
   app.set_version_flag("--version", tool_version());
   try {
@@ -69,6 +74,8 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
     throw catalog::UsageError("no NAME; talus bench --list names the benches");
   if (!options.json.empty() && options.out.empty()) options.out = fs::absolute(options.json).parent_path();
   if (options.json.empty() && !options.out.empty()) options.json = options.out / (options.bench + ".json");
+  if (options.resumes && options.json.empty())
+    throw catalog::UsageError("--resume needs the --json FILE (or --out) of the run that was stopped");
   return options;
 }
 
@@ -112,12 +119,32 @@ struct Measured {
   std::vector<PlotCurve> curves;
 };
 
+/// Where the case is kept; empty if nothing is written.
+fs::path case_file(const Options& options, const BenchCase& bench_case) {
+  if (options.json.empty()) return {};
+  std::string name = bench_case.name;
+  std::replace(name.begin(), name.end(), '/', '_');
+  return fs::path(options.json.string() + ".cases") / (name + ".json");
+}
+
+CaseResult measure_or_keep(const BenchCase& bench_case, const Options& options) {
+  const fs::path file = case_file(options, bench_case);
+  if (options.resumes)
+    if (std::optional<CaseResult> kept = read_case(file)) return std::move(*kept);
+  CaseResult result = bench_case.measure();
+  if (!file.empty()) {
+    fs::create_directories(file.parent_path());
+    write_case(file, result);
+  }
+  return result;
+}
+
 Measured measure(const std::vector<BenchCase>& cases, const Options& options) {
   Measured measured;
   BatchProgress progress("bench " + options.bench, static_cast<int>(cases.size()));
   for (const BenchCase& bench_case : cases) {
     progress.step(bench_case.name);
-    CaseResult result = bench_case.measure();
+    CaseResult result = measure_or_keep(bench_case, options);
     for (Figure& figure : result.figures)
       measured.figures.push_back({options.bench, bench_case.name, std::move(figure), command_of(options, bench_case)});
     for (PlotCurve& curve : result.curves) measured.curves.push_back(std::move(curve));
@@ -131,8 +158,8 @@ void write_files(const Bench& bench, const BenchPlan& plan, const Measured& meas
   fs::create_directories(options.out);
   fs::create_directories(fs::absolute(options.json).parent_path());
   write_whole(options.json, json_lines(measured.figures));
-  std::string page =
-      plan.page ? plan.page() : markdown_table("talus bench " + bench.name + ": " + bench.summary, measured.figures);
+  std::string page = plan.page ? plan.page(measured.figures)
+                               : markdown_table("talus bench " + bench.name + ": " + bench.summary, measured.figures);
   for (const PlotAxes& axes : plan.plots) {
     const std::string plot = stem + "_" + axes.name + ".svg";
     write_whole(options.out / plot, log_plot_svg(axes, measured.curves));
@@ -145,7 +172,7 @@ int run_bench(const Options& options) {
   const Bench& bench = bench_named(options.bench);
   const BenchPlan plan = bench.plan(bench_options(options));
   const Measured measured = measure(chosen_cases(plan, options), options);
-  std::fputs((plan.page ? plan.page() : text_table(measured.figures)).c_str(), stdout);
+  std::fputs((plan.page ? plan.page(measured.figures) : text_table(measured.figures)).c_str(), stdout);
   if (!options.json.empty()) write_files(bench, plan, measured, options);
   for (const ReportedFigure& reported : measured.figures)
     if (!reported.figure.value || is_goal_met(reported.figure) == false) return kCheckNotPassed;

@@ -4,6 +4,30 @@
 #include <algorithm>
 
 namespace workflows {
+namespace {
+
+/// Materials of no body and no wall, motions of no wall.
+std::vector<std::string> idle_sections(const SceneDescription& description, const dem_gpu::Scene& scene) {
+  std::vector<char> is_used(scene.materials.size(), 0);
+  for (const dem_gpu::Body& body : scene.bodies) is_used[static_cast<std::size_t>(body.material)] = 1;
+  for (const dem_gpu::Wall& wall : scene.walls) is_used[static_cast<std::size_t>(wall.material)] = 1;
+  std::vector<std::string> lines;
+  for (std::size_t i = 0; i < scene.materials.size(); ++i)
+    if (!is_used[i]) {
+      const std::string& name = scene.materials[i].name;
+      lines.push_back(description.places.at("material '" + name + "'") + ": no fill, chain or wall is of material \"" +
+                      name + "\": it has no effect");
+    }
+  for (const std::string& motion : description.motions) {
+    const auto moves_by_it = [&](const dem_gpu::Wall& wall) { return wall.group == motion; };
+    if (std::none_of(scene.walls.begin(), scene.walls.end(), moves_by_it))
+      lines.push_back(description.places.at("motion '" + motion + "'") + ": no wall has motion = \"" + motion +
+                      "\": it moves nothing");
+  }
+  return lines;
+}
+
+}  // namespace
 
 std::vector<std::string> idle_settings(const SceneDescription& description, const dem_gpu::Scene& scene) {
   const auto is_sphere = [&](const dem_gpu::Body& body) {
@@ -31,7 +55,7 @@ std::vector<std::string> idle_settings(const SceneDescription& description, cons
       {std::holds_alternative<dem_gpu::HardeningDepthPotential>(scene.polyhedral_law), has_polyhedra, law, "hardening",
        "polyhedra"},
   };
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = idle_sections(description, scene);
   for (const auto& setting : settings)
     if (setting.is_stated && !setting.is_felt)
       lines.push_back(setting.place + setting.key + " is for contacts of " + setting.bodies +

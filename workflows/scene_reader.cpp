@@ -236,7 +236,7 @@ SceneDescription read_scene_text(std::string text, const std::filesystem::path& 
     scene.energy_ledger = ledger->flag("enabled", true);
     ledger->finish();
   }
-  read_walls(table, read_motions(table), base_folder, description);
+  read_walls(table, read_motions(table, description), base_folder, description);
   read_outflow(table, description);
   read_periodic(table, description);
   description.fills = read_fills(table, scene, base_folder);

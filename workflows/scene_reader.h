@@ -78,8 +78,9 @@ struct SceneDescription {
   std::filesystem::path file;
   /// "scene.toml:4:1" of the sections, by what the engine's messages about each begin with: "wall 'gate'".
   std::map<std::string, std::string> places;
-  std::string text;      // the file's bytes
-  dem_gpu::Scene scene;  // without shapes and bodies; stiffness still to be worked out
+  std::string text;                  // the file's bytes
+  dem_gpu::Scene scene;              // without shapes and bodies; stiffness still to be worked out
+  std::vector<std::string> motions;  // names of the [motion.NAME] sections
   StiffnessChoice stiffness;
   std::vector<FillDescription> fills;
   std::vector<ChainDescription> chains;

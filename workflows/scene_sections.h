@@ -23,7 +23,7 @@ int read_material_name(TomlTable& table, std::string_view key, const std::vector
 
 /// [motion.NAME] tables, for the walls of a group to share.
 using NamedMotions = std::map<std::string, dem_gpu::Motion>;
-NamedMotions read_motions(TomlTable& file);
+NamedMotions read_motions(TomlTable& file, SceneDescription& description);
 
 /// [[wall]] and [[lifters]], in this order. Refuses equal names. Mesh files are sought from `base_folder`.
 void read_walls(TomlTable& file, const NamedMotions& motions, const std::filesystem::path& base_folder,

@@ -228,7 +228,10 @@ void read_lifters(TomlTable& table, dem_gpu::Scene& scene) {
   std::vector<std::string> names;
   for (const Wall& wall : scene.walls)
     if (std::holds_alternative<dem_gpu::Cylinder>(wall.geometry)) names.push_back(wall.name);
-  if (names.empty()) table.refuse("lifters need a wall of type \"cylinder\" to stand on");
+  if (names.empty())
+    table.refuse(
+        "lifters need a wall of type \"cylinder\" to stand on, and the scene has none; add one, or give the "
+        "lifters as walls of type \"block\"");
   const std::string& shell_name = names[static_cast<std::size_t>(table.choice("on", names))];
   const Wall shell_wall =
       *std::find_if(scene.walls.begin(), scene.walls.end(), [&](const Wall& wall) { return wall.name == shell_name; });
@@ -269,9 +272,13 @@ void read_lifters(TomlTable& table, dem_gpu::Scene& scene) {
 
 }  // namespace
 
-NamedMotions read_motions(TomlTable& file) {
+NamedMotions read_motions(TomlTable& file, SceneDescription& description) {
   NamedMotions motions;
-  for (TomlTable& table : file.named_tables("motion")) motions[table.name()] = read_motion(table);
+  for (TomlTable& table : file.named_tables("motion")) {
+    description.motions.push_back(table.name());
+    description.places["motion '" + table.name() + "'"] = table.place();
+    motions[table.name()] = read_motion(table);
+  }
   return motions;
 }
 

@@ -300,7 +300,8 @@ Hdf5Reader::Hdf5Reader(const std::filesystem::path& file, const std::string& kin
   handle_->kind = kind;
   std::error_code error;
   if (!std::filesystem::is_regular_file(file, error))
-    handle_->refuse("", "no such file; expected a Talus " + kind + " file");
+    handle_->refuse("", std::string(std::filesystem::exists(file, error) ? "is no file" : "no such file") +
+                            "; expected a Talus " + kind + " file");
   const Id access = property_list(H5P_FILE_ACCESS);
   H5Pset_file_locking(access, false, true);  // files are renamed into place whole, so readers need no lock
   handle_->id = Id(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose);

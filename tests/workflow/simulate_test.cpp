@@ -292,6 +292,25 @@ TEST_F(Simulate, AResumedRunMendsItsFolderAndSaysWhatIsLost) {
   EXPECT_EQ(read_bytes(geometry), whole);
 }
 
+TEST_F(Simulate, AFolderInAFilesPlaceIsNamedOnResume) {
+  ASSERT_EQ(run({scene_.string(), "--end-time", "5 ms"}), 0) << error_;
+  for (const char* file : {"walls.csv", "time_series.csv", "run.json"}) {
+    const std::string bytes = read_bytes(run_ / file);
+    fs::remove(run_ / file);
+    fs::create_directory(run_ / file);
+    EXPECT_EQ(run({"--resume", run_.string(), "--end-time", "6 ms"}), 1) << file;
+    EXPECT_NE(error_.find((run_ / file).string() + ": cannot be replaced: it is a folder; move it out of the way"),
+              std::string::npos)
+        << error_;
+    fs::remove(run_ / file);
+    test_support::write_bytes(run_ / file, bytes);
+  }
+  fs::remove(run_ / "checkpoint.h5");
+  fs::create_directory(run_ / "checkpoint.h5");
+  EXPECT_EQ(run({"--resume", run_.string(), "--end-time", "7 ms"}), 3);
+  EXPECT_NE(error_.find("checkpoint.h5: is no file; expected a Talus"), std::string::npos) << error_;
+}
+
 TEST_F(Simulate, ADamagedResolvedSceneIsBadInput) {
   ASSERT_EQ(run({scene_.string(), "--end-time", "5 ms"}), 0) << error_;
   const nlohmann::json whole = json(run_ / "resolved_scene.json");

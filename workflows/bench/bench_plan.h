@@ -59,10 +59,19 @@ struct PlotAxes {
   bool is_linear = false;
 };
 
+/// A figure with where it comes from.
+struct ReportedFigure {
+  std::string bench;
+  std::string case_name;
+  Figure figure;
+  std::string command;  // what a reader types to get it alone
+};
+
 struct BenchPlan {
   std::vector<BenchCase> cases;
   std::vector<PlotAxes> plots;
-  std::function<std::string()> page{};  // Markdown of what the cases run have measured; empty: a table of all figures
+  /// Markdown of what was measured; empty: a table of all figures.
+  std::function<std::string(const std::vector<ReportedFigure>&)> page{};
 };
 
 struct BenchOptions {

@@ -21,6 +21,8 @@ const std::vector<Bench>& benches() {
       {"levels", "levels of detail of a catalogue (--catalog FILE): error against the cost of a contact",
        plan_levels_bench},
       {"overlap", "overlap integrals: error against closed forms, time per pair", plan_overlap_bench},
+      {"parts", "how many parts a rock needs (--catalog FILE): 300 rocks poured, tilted and emptied at every level",
+       plan_parts_bench},
       {"pile", "300 mixed grains settling: speed, energy balance, overlap, threads", plan_pile_bench},
       {"walls", "a drum as a cylinder and as 64 and 512 flat segments: torque and work", plan_walls_bench},
       // A new bench: its file beside these, its function in the header, one line here.

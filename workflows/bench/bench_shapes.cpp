@@ -14,13 +14,6 @@ using catalog::ConvexPart;
 using catalog::FaceKind;
 using dem_gpu::Vec3;
 
-ConvexPart shifted(ConvexPart part, const Vec3& by) {
-  for (catalog::Point& vertex : part.vertices) vertex = {vertex[0] + by.x, vertex[1] + by.y, vertex[2] + by.z};
-  for (catalog::ConvexFace& face : part.faces)
-    face.plane.offset += face.plane.normal[0] * by.x + face.plane.normal[1] * by.y + face.plane.normal[2] * by.z;
-  return part;
-}
-
 /// Box between two corners; faces named by axis and side, as box_part orders them: 2 * axis + (1 for the upper side).
 ConvexPart box_between(const Vec3& low, const Vec3& high, const std::vector<int>& inner_faces) {
   ConvexPart part = shifted(dem_gpu::box_part(high - low), 0.5 * (low + high));
@@ -47,6 +40,13 @@ ConvexPart polyhedron(const std::vector<catalog::Point>& vertices, const std::ve
 }
 
 }  // namespace
+
+catalog::ConvexPart shifted(catalog::ConvexPart part, const Vec3& by) {
+  for (catalog::Point& vertex : part.vertices) vertex = {vertex[0] + by.x, vertex[1] + by.y, vertex[2] + by.z};
+  for (catalog::ConvexFace& face : part.faces)
+    face.plane.offset += face.plane.normal[0] * by.x + face.plane.normal[1] * by.y + face.plane.normal[2] * by.z;
+  return part;
+}
 
 dem_gpu::Shape shape_as_given(const std::string& name, std::vector<ConvexPart> parts) {
   double volume = 0;

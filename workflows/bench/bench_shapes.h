@@ -14,6 +14,9 @@ dem_gpu::Shape shape_as_given(const std::string& name, std::vector<catalog::Conv
 
 dem_gpu::Shape box_shape(const dem_gpu::Vec3& size);
 
+/// The part moved by a vector.
+catalog::ConvexPart shifted(catalog::ConvexPart part, const dem_gpu::Vec3& by);
+
 /// Box centred at the origin, cut into `cuts[axis]` equal slabs along each axis; cut faces are inner.
 dem_gpu::Shape cut_box_shape(const dem_gpu::Vec3& size, const std::array<int, 3>& cuts);
 

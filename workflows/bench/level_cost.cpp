@@ -7,26 +7,20 @@
 #include "workflows/bench/laws/laws_cases.h"
 
 namespace workflows {
-namespace {
-
-const dem_gpu::PolyhedralLaw kLaw = dem_gpu::DepthPotential{1};
-
-/// The level at a volume of 1, so that the depths of the pairs are shares of the size.
-dem_gpu::Shape unit_shape(catalog::LevelOfDetail level) {
+dem_gpu::Shape unit_shape(const std::string& name, catalog::LevelOfDetail level) {
   const double size = std::cbrt(level.mass_properties.volume);
   for (catalog::ConvexPart& part : level.parts) {
-    for (catalog::Point& p : part.vertices)
-      for (double& x : p) x /= size;
+    for (catalog::Point& vertex : part.vertices)
+      for (double& x : vertex) x /= size;
     for (catalog::ConvexFace& face : part.faces) face.plane.offset /= size;
   }
-  return dem_gpu::polyhedral_shape("level", level.parts);
+  return dem_gpu::polyhedral_shape(name, level.parts);
 }
 
-}  // namespace
-
-double measured_contact_cost(const catalog::LevelOfDetail& level) {
-  const dem_gpu::Shape cube = box_shape({1, 1, 1}), body = unit_shape(level);
-  return time_per_pair(body, body, kLaw) / time_per_pair(cube, cube, kLaw);
+double measured_contact_cost(const dem_gpu::Shape& body) {
+  const dem_gpu::PolyhedralLaw law = dem_gpu::DepthPotential{1};
+  const dem_gpu::Shape cube = box_shape({1, 1, 1});
+  return time_per_pair(body, body, law) / time_per_pair(cube, cube, law);
 }
 
 std::string ladder_name(const catalog::LevelKey& key) {

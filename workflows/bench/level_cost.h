@@ -4,11 +4,15 @@
 #include <string>
 
 #include "catalog/shape_record.h"
+#include "dem_gpu/scene.h"
 
 namespace workflows {
 
-/// Time of a contact of two like bodies of that level under the depth potential over that of two cubes [-], measured.
-double measured_contact_cost(const catalog::LevelOfDetail& level);
+/// The level as the engine sees it, at a volume of 1: lengths and depths are then shares of its size.
+dem_gpu::Shape unit_shape(const std::string& name, catalog::LevelOfDetail level);
+
+/// Time of a contact of two like bodies of volume 1 under the depth potential over that of two cubes [-], measured.
+double measured_contact_cost(const dem_gpu::Shape& body);
 
 /// What the levels of one ladder have in common, as part of a case's name: "64", "64-f34-enclosing".
 std::string ladder_name(const catalog::LevelKey& key);

@@ -30,10 +30,7 @@ Scene thrown_block(const NamedLaw& law, int parts_along) {
   // A slab and not a plane: on a plane both laws are the same.
   dem_gpu::Wall floor;
   floor.name = "floor";
-  catalog::ConvexPart slab = dem_gpu::box_part({1, 1, 0.1});
-  for (catalog::Point& vertex : slab.vertices) vertex[2] -= 0.05;
-  for (catalog::ConvexFace& face : slab.faces) face.plane.offset -= 0.05 * face.plane.normal[2];
-  floor.geometry = dem_gpu::VolumeObject{slab};
+  floor.geometry = dem_gpu::VolumeObject{shifted(dem_gpu::box_part({1, 1, 0.1}), {0, 0, -0.05})};
   scene.walls = {floor};
   dem_gpu::Body block;
   block.position = {0, 0, 0.018};

@@ -4,18 +4,34 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <limits>
+#include <map>
+#include <utility>
 
+#include "workflows/bench/decomposition/bench_levels.h"
+#include "workflows/bench/decomposition/goal_rows.h"
 #include "workflows/bench/decomposition/markdown_table.h"
-#include "workflows/bench/level_cost.h"
-#include "workflows/level_choice.h"
 
 namespace workflows {
 namespace {
 
 using Cells = std::vector<std::string>;
-using Row = DecompositionResults::Row;
 
-double percent(double share) { return 100 * share; }
+/// Figures by case and name; those that are not there are not numbers.
+class FigureTable {
+ public:
+  explicit FigureTable(const std::vector<ReportedFigure>& figures) {
+    for (const ReportedFigure& reported : figures)
+      if (reported.figure.value) values_[{reported.case_name, reported.figure.name}] = *reported.figure.value;
+  }
+  double operator()(const std::string& case_name, const std::string& figure) const {
+    const auto found = values_.find({case_name, figure});
+    return found == values_.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
+  }
+
+ private:
+  std::map<std::pair<std::string, std::string>, double> values_;
+};
 
 std::string machine() {
   std::ifstream file("/proc/cpuinfo");
@@ -24,178 +40,190 @@ std::string machine() {
   return "an unnamed processor";
 }
 
-std::string verdict(const GoalRow& goal, double difference) {
-  return difference <= goal.stretch ? "stretch" : difference <= goal.goal ? "goal" : "missed";
-}
-
-std::vector<Row> of_cap(const DecompositionResults& results, int face_cap) {
-  std::vector<Row> rows;
-  for (const Row& row : results.rows)
-    if (row.face_cap == face_cap) rows.push_back(row);
+/// The rows measured under a cap of faces.
+std::vector<GoalRow> measured_rows(const FigureTable& figures, int face_cap) {
+  std::vector<GoalRow> rows = goal_rows();
+  std::erase_if(rows, [&](const GoalRow& row) {
+    return std::isnan(figures(row.case_name(face_cap), difference_figures().front().name_in(row)));
+  });
   return rows;
 }
 
-std::string goals_table(const std::vector<Row>& rows) {
-  std::vector<Cells> cells{{"shape", "parts x vertices", "best public", "median %", "best %", "worst %", "+- %",
-                            "goal %", "stretch %", "verdict"}};
-  for (const Row& row : rows) {
-    const auto difference = [](const LevelRun& run) { return percent(run.level.error.symmetric_difference); };
-    const double middle = median(row.runs, difference);
-    cells.push_back(
-        {row.goal.solid, row_text(row.goal), row.goal.best_public.empty() ? "-" : row.goal.best_public,
-         fixed(middle, 3), fixed(least(row.runs, difference), 3), fixed(most(row.runs, difference), 3),
-         fixed(most(row.runs, [](const LevelRun& run) { return percent(run.level.error.method_error); }), 3),
-         fixed(row.goal.goal, 2), fixed(row.goal.stretch, 2), verdict(row.goal, middle)});
+void add_columns(Cells& header, const std::vector<RowFigure>& columns) {
+  for (const RowFigure& column : columns) header.push_back(column.heading);
+}
+
+void add_figures(Cells& cells, const FigureTable& figures, const GoalRow& row, int face_cap,
+                 const std::vector<RowFigure>& columns) {
+  for (const RowFigure& column : columns)
+    cells.push_back(fixed(figures(row.case_name(face_cap), column.name_in(row)), column.decimals));
+}
+
+std::string goals_table(const FigureTable& figures, const std::vector<GoalRow>& rows, int face_cap) {
+  std::vector<Cells> table{{"shape", "parts x vertices", "best public"}};
+  add_columns(table.front(), difference_figures());
+  table.front().insert(table.front().end(), {"goal %", "stretch %", "verdict"});
+  for (const GoalRow& row : rows) {
+    table.push_back({row.solid, row.text(), row.best_public.empty() ? "-" : row.best_public});
+    add_figures(table.back(), figures, row, face_cap, difference_figures());
+    const double median = figures(row.case_name(face_cap), difference_figures().front().name_in(row));
+    const char* verdict = median <= row.stretch ? "stretch" : median <= row.goal ? "goal" : "missed";
+    table.back().insert(table.back().end(), {fixed(row.goal, 2), fixed(row.stretch, 2), verdict});
   }
-  return aligned_markdown(cells);
+  return aligned_markdown(table);
 }
 
-std::string errors_table(const std::vector<Row>& rows) {
-  std::vector<Cells> cells{{"shape", "parts x vertices", "missing %", "volume %", "surface mean %", "95 %", "max",
-                            "mesh to parts: mean %", "95 %", "max", "parts to mesh: mean %", "95 %", "max", "centre %",
-                            "inertia %", "convexity"}};
-  for (const Row& row : rows) {
-    const auto middle = [&](double share(const catalog::DecompositionError&), int decimals) {
-      return fixed(percent(median(row.runs, [&](const LevelRun& run) { return share(run.level.error); })), decimals);
-    };
-    using Error = const catalog::DecompositionError&;
-    cells.push_back(
-        {row.goal.solid, row_text(row.goal), middle([](Error e) { return e.missing_volume; }, 3),
-         middle([](Error e) { return e.volume_error; }, 4), middle([](Error e) { return e.surface.mean; }, 3),
-         middle([](Error e) { return e.surface.percentile_95; }, 2),
-         middle([](Error e) { return e.surface.largest; }, 2),
-         middle([](Error e) { return e.surface_from_mesh.mean; }, 3),
-         middle([](Error e) { return e.surface_from_mesh.percentile_95; }, 2),
-         middle([](Error e) { return e.surface_from_mesh.largest; }, 2),
-         middle([](Error e) { return e.surface_from_union.mean; }, 3),
-         middle([](Error e) { return e.surface_from_union.percentile_95; }, 2),
-         middle([](Error e) { return e.surface_from_union.largest; }, 2),
-         middle([](Error e) { return e.centre_error; }, 3), middle([](Error e) { return e.inertia_error; }, 2),
-         fixed(median(row.runs, [](const LevelRun& run) { return run.level.error.convexity_error; }), 4)});
+std::string errors_table(const FigureTable& figures, const std::vector<GoalRow>& rows) {
+  std::vector<Cells> table{{"shape", "parts x vertices"}};
+  add_columns(table.front(), error_figures());
+  for (const GoalRow& row : rows) {
+    table.push_back({row.solid, row.text()});
+    add_figures(table.back(), figures, row, 0, error_figures());
   }
-  return aligned_markdown(cells);
+  return aligned_markdown(table);
 }
 
-std::string rules_table(const std::vector<Row>& rows) {
-  std::vector<Cells> cells{{"shape", "parts x vertices", "faces <=", "parts", "vertices", "faces",
-                            "most faces of a part", "shortest edge %", "narrowest face %", "volume error %",
-                            "ledges % of cuts", "pairs that overlap"}};
-  for (const Row& row : rows) {
-    const auto count = [&](int of(const LevelRun&)) {
-      return fixed(median(row.runs, [&](const LevelRun& run) { return of(run); }), 0);
-    };
-    using Run = const LevelRun&;
-    cells.push_back({row.goal.solid, row_text(row.goal), row.face_cap > 0 ? std::to_string(row.face_cap) : "-",
-                     count([](Run run) { return static_cast<int>(run.level.parts.size()); }),
-                     count([](Run run) { return run.figures.vertices; }),
-                     count([](Run run) { return run.figures.faces; }),
-                     fixed(most(row.runs, [](Run run) { return run.figures.most_faces; }), 0),
-                     fixed(least(row.runs, [](Run run) { return percent(run.figures.shortest_edge); }), 2),
-                     fixed(least(row.runs, [](Run run) { return percent(run.figures.narrowest_face); }), 2),
-                     fixed(most(row.runs, [](Run run) { return percent(std::abs(run.level.error.volume_error)); }), 4),
-                     fixed(most(row.runs, [](Run run) { return percent(run.figures.ledge_area); }), 3),
-                     fixed(most(row.runs, [](Run run) { return run.overlapping_pairs; }), 0)});
+std::string rules_table(const FigureTable& figures) {
+  std::vector<Cells> table{{"shape", "parts x vertices", "faces <="}};
+  add_columns(table.front(), rule_figures());
+  for (const int cap : kFaceCaps)
+    for (const GoalRow& row : measured_rows(figures, cap)) {
+      table.push_back({row.solid, row.text(), cap > 0 ? std::to_string(cap) : "-"});
+      add_figures(table.back(), figures, row, cap, rule_figures());
+    }
+  return aligned_markdown(table);
+}
+
+std::string times_table(const FigureTable& figures) {
+  std::vector<Cells> table{{"what", "verdict", "CPU s", "goal CPU s"}};
+  for (const TimeGoal& goal : kTimeGoals) {
+    const double time = figures(kTimeCase, goal.name);
+    table.push_back({kTimedSolid + ", " + goal.name, time <= goal.seconds ? "goal" : "missed", fixed(time, 1),
+                     fixed(goal.seconds, 0)});
   }
-  return aligned_markdown(cells);
+  return aligned_markdown(table);
 }
 
-std::string times_table(const DecompositionResults& results) {
-  std::vector<Cells> cells{{"what", "verdict", "CPU s", "goal CPU s"}};
-  for (const auto& time : results.times)
-    cells.push_back({time.what, time.cpu_seconds <= time.goal ? "goal" : "missed", fixed(time.cpu_seconds, 1),
-                     fixed(time.goal, 0)});
-  return aligned_markdown(cells);
+std::string efforts_table(const FigureTable& figures) {
+  std::vector<Cells> table{{"shape", "parts x vertices", "effort", "difference %", "CPU s"}};
+  for (const int parts : kEffortParts)
+    for (const double effort : kEfforts)
+      table.push_back({kTimedSolid, std::to_string(parts) + " x " + std::to_string(kEffortVertexCap), fixed(effort, 2),
+                       fixed(figures(kEffortCase, effort_figure(parts, effort, "symmetric difference")), 3),
+                       fixed(figures(kEffortCase, effort_figure(parts, effort, "CPU time")), 2)});
+  return aligned_markdown(table);
 }
 
-std::string efforts_table(const DecompositionResults& results) {
-  std::vector<Cells> cells{{"shape", "parts x vertices", "effort", "difference %", "CPU s"}};
-  for (const auto& effort : results.efforts)
-    cells.push_back({effort.solid, std::to_string(effort.parts) + " x " + std::to_string(effort.vertex_cap),
-                     fixed(effort.effort, 2), fixed(percent(effort.difference), 3), fixed(effort.cpu_seconds, 2)});
-  return aligned_markdown(cells);
+struct FrontLevel {
+  catalog::LevelKey key;
+  double difference, cost;
+};
+
+/// The levels measured that no other is at most as dear and at most as wrong as, cheapest first.
+std::vector<FrontLevel> front_of(const FigureTable& figures, const FrontCase& one) {
+  std::vector<FrontLevel> levels;
+  for (catalog::LevelKey key : one.ladders)
+    for (const int parts : kLadder) {
+      key.parts_asked = parts;
+      const double cost = figures(one.name(), front_figure(key, "time of a contact over that of cubes"));
+      if (!std::isnan(cost))
+        levels.push_back({key, figures(one.name(), front_figure(key, "symmetric difference")), cost});
+    }
+  std::vector<FrontLevel> front;
+  for (const FrontLevel& level : levels)
+    if (std::none_of(levels.begin(), levels.end(), [&](const FrontLevel& other) {
+          return other.cost <= level.cost && other.difference <= level.difference &&
+                 (other.cost < level.cost || other.difference < level.difference);
+        }))
+      front.push_back(level);
+  std::stable_sort(front.begin(), front.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  return front;
 }
 
-/// Whether no other level of the same solid is at most as dear and at most as wrong.
-bool is_on_front(const DecompositionResults::Front& one, const std::vector<DecompositionResults::Front>& all) {
-  const auto error = [](const auto& of) { return of.run.level.error.symmetric_difference; };
-  return std::none_of(all.begin(), all.end(), [&](const auto& other) {
-    return other.solid == one.solid && other.cost <= one.cost && error(other) <= error(one) &&
-           (other.cost < one.cost || error(other) < error(one));
-  });
+std::string front_table(const FigureTable& figures) {
+  const Cells others{"parts kept", "vertices", "faces", "contact_cost"};
+  std::vector<Cells> table{
+      {"shape", "level", "difference %", "measured cost", "parts", "vertices", "faces", "cost by formula"}};
+  for (const FrontCase& one : kFrontCases)
+    for (const FrontLevel& level : front_of(figures, one)) {
+      table.push_back({one.solid, std::to_string(level.key.parts_asked) + " x " + ladder_text(level.key),
+                       fixed(level.difference, 3), fixed(level.cost, 1)});
+      for (const std::string& what : others)
+        table.back().push_back(
+            fixed(figures(one.name(), front_figure(level.key, what)), what == others.back() ? 1 : 0));
+    }
+  return aligned_markdown(table);
 }
 
-std::string front_table(const DecompositionResults& results) {
-  std::vector<DecompositionResults::Front> front;
-  for (const auto& one : results.front)
-    if (is_on_front(one, results.front)) front.push_back(one);
-  std::stable_sort(front.begin(), front.end(), [](const auto& a, const auto& b) {
-    return a.solid != b.solid ? a.solid < b.solid : a.cost < b.cost;
-  });
-  std::vector<Cells> cells{
-      {"shape", "level", "parts", "vertices", "faces", "difference %", "measured cost", "by formula"}};
-  for (const auto& one : front) {
-    Level level;
-    level.parts = static_cast<int>(one.run.level.parts.size());
-    level.faces = one.run.figures.faces;
-    cells.push_back({one.solid, std::to_string(one.run.level.key.parts_asked) + " x " + ladder_text(one.run.level.key),
-                     std::to_string(level.parts), std::to_string(one.run.figures.vertices), std::to_string(level.faces),
-                     fixed(percent(one.run.level.error.symmetric_difference), 3), fixed(one.cost, 1),
-                     fixed(contact_cost(level), 1)});
-  }
-  return aligned_markdown(cells);
+/// Whether a case has been run.
+bool has_case(const std::vector<ReportedFigure>& figures, const std::string& beginning) {
+  return std::any_of(figures.begin(), figures.end(),
+                     [&](const ReportedFigure& reported) { return reported.case_name.starts_with(beginning); });
 }
 
-/// A heading, a line of text and a table, if there is anything to show.
-std::string section(const std::string& heading, const std::string& text, bool is_shown, const std::string& table) {
-  return is_shown ? "\n## " + heading + "\n\n" + text + "\n\n" + table : "";
+std::string section(const std::string& heading, const std::string& text, const std::string& table) {
+  return "\n## " + heading + "\n\n" + text + "\n\n" + table;
+}
+
+std::string head(const std::vector<std::string>& left_out, int seeds) {
+  std::string page =
+      "# Convex decomposition: error, time, front\n\nWritten by `talus bench decomposition --scans DIR` (" +
+      std::to_string(seeds) + " seeds a row) on " + machine() +
+      ". Errors are those of the measure that stands apart from the search: volumes by exact rays, surfaces by sample "
+      "points. Errors and rules are the same on every machine, times are not.\n";
+  if (left_out.empty()) return page;
+  page += "\nNot measured, for want of files:";
+  for (const std::string& name : left_out) page += (name == left_out.front() ? " " : ", ") + name;
+  return page + ".\n";
 }
 
 }  // namespace
 
-std::string decomposition_page(const DecompositionResults& results) {
-  std::string page =
-      "# Convex decomposition: error, time, front\n\nWritten by `talus bench decomposition --scans DIR` (" +
-      std::to_string(results.seeds) + " seeds a row) on " + machine() +
-      ". Errors are those of the measure that stands apart from the search: volumes by exact rays, "
-      "surfaces by sample points. Errors and rules are the same on every machine, times are not.\n";
-  if (!results.left_out.empty()) {
-    page += "\nNot measured, for want of files:";
-    for (const std::string& name : results.left_out) page += " " + name;
-    page += ".\n";
-  }
-  const std::vector<Row> uncapped = of_cap(results, 0);
-  page +=
-      section("Symmetric difference",
-              "Of the union of parts to the mesh, over the mesh's volume; median, best and worst of the seeds; +- is "
-              "the standard error of the measurement (worst). Best public: V-HACD 4.1 and CoACD on the same files.",
-              !uncapped.empty(), uncapped.empty() ? "" : goals_table(uncapped));
+std::string decomposition_page(const std::vector<ReportedFigure>& figures, const std::vector<std::string>& left_out,
+                               int seeds) {
+  const FigureTable table(figures);
+  std::string page = head(left_out, seeds);
+  bool has_rows = false;
   for (const int cap : kFaceCaps) {
-    const std::vector<Row> rows = of_cap(results, cap);
-    if (cap == 0 || rows.empty()) continue;
-    page += section("The same under a cap of " + std::to_string(cap) + " faces a part",
-                    "Faces on one plane are one. Goals are those without the cap, for comparison.", true,
-                    goals_table(rows));
+    const std::vector<GoalRow> rows = measured_rows(table, cap);
+    if (rows.empty()) continue;
+    has_rows = true;
+    if (cap > 0)
+      page += section("The same under a cap of " + std::to_string(cap) + " faces a part",
+                      "Faces on one plane are one. Goals are those without the cap, for comparison.",
+                      goals_table(table, rows, cap));
+    else
+      page += section("Symmetric difference",
+                      "Of the union of parts to the mesh, over the mesh's volume; median, best and worst of the seeds; "
+                      "+- is the standard error of the measurement (worst). Best public: V-HACD 4.1 and CoACD on the "
+                      "same files.",
+                      goals_table(table, rows, cap));
   }
-  page +=
-      section("Other errors",
-              "Medians of the seeds. Distances over the diagonal of the mesh's bounding box: both ways, from points "
-              "of the mesh to the parts, from points of the parts to the mesh. Centre over the diagonal; inertia "
-              "tensor over its norm; convexity is the difference in V / V_hull.",
-              !uncapped.empty(), uncapped.empty() ? "" : errors_table(uncapped));
-  page += section("Rules",
-                  "Counts are medians, the others the worst of the seeds. Edges and faces over the size of their part "
-                  "(asked for: 1 % and 2 %), volume error at most 0.1 % (volume-true), no overlap, tested exactly.",
-                  !results.rows.empty(), results.rows.empty() ? "" : rules_table(results.rows));
-  page += section("Time", "CPU time of all threads, measuring included; medians of at most three seeds.",
-                  !results.times.empty(), times_table(results));
-  page += section("Effort", "What more search gains (`--effort`); medians of at most three seeds.",
-                  !results.efforts.empty(), efforts_table(results));
-  page +=
-      section("Front",
-              "The levels that no other of the shape beats in both error and cost (seed 1; ladders of 1 to 32 parts "
-              "under each cap). Cost: time of a contact of two such bodies in the engine over that of two cubes, "
-              "measured, and by the formula that scenes choose levels with.",
-              !results.front.empty(), front_table(results));
+  if (const std::vector<GoalRow> rows = measured_rows(table, 0); !rows.empty())
+    page += section("Other errors",
+                    "Medians of the seeds. Distances over the diagonal of the mesh's bounding box: both ways, from "
+                    "points of the mesh to the parts, from points of the parts to the mesh. Centre over the diagonal; "
+                    "inertia tensor over its norm; convexity is the difference in V / V_hull.",
+                    errors_table(table, rows));
+  if (has_rows)
+    page += section("Rules",
+                    "Counts and CPU time (of the ladder that holds the level, measuring included) are medians, the "
+                    "others the worst of the seeds. Asked for: edges at least 1 % and faces 2 % of the size of their "
+                    "part, volume error at most 0.1 % (volume-true), nothing missing (enclosing), no overlap, which is "
+                    "tested exactly.",
+                    rules_table(table));
+  if (has_case(figures, kTimeCase))
+    page += section("Time", "CPU time of all threads, measuring included; medians of at most three seeds.",
+                    times_table(table));
+  if (has_case(figures, kEffortCase))
+    page +=
+        section("Effort", "What more search gains (`--effort`); medians of at most three seeds.", efforts_table(table));
+  if (has_case(figures, "front-"))
+    page += section("Front",
+                    "The levels that no other of the shape beats in both error and cost (seed 1; ladders of 1 to 32 "
+                    "parts under each cap). Cost: time of a contact of two such bodies in the engine over that of two "
+                    "cubes, measured, and by the formula that scenes choose levels with.",
+                    front_table(table));
   return page;
 }
 

@@ -138,6 +138,26 @@ TEST(BenchProgram, OutNamesAFolderForEverything) {
   EXPECT_FALSE(read_bytes(folder / "new/overlap.md").empty());
 }
 
+TEST(BenchProgram, AStoppedBenchGoesOnWithTheCasesItHas) {
+  const TemporaryFolder folder;
+  const std::string json = "'" + (folder / "o.json").string() + "'", kept = "o.json.cases/O1.json";
+  ASSERT_EQ(run_bench(folder, "overlap --case O1 --json " + json).status, 0);
+  const std::string table = read_bytes(folder / "o.md");
+  // A figure that no run gives: seen again, it was kept.
+  auto marked = nlohmann::ordered_json::parse(read_bytes(folder / kept));
+  marked["figures"][0]["name"] = "kept";
+  test_support::write_bytes(folder / kept, marked.dump());
+  ASSERT_EQ(run_bench(folder, "overlap --resume --case O1 --json " + json).status, 0);
+  EXPECT_NE(read_bytes(folder / "o.md").find("| O1 | kept |"), std::string::npos);
+  ASSERT_EQ(run_bench(folder, "overlap --case O1 --json " + json).status, 0) << "without --resume all is measured";
+  EXPECT_EQ(read_bytes(folder / "o.md"), table);
+  test_support::write_bytes(folder / kept, "{");
+  const Ended damaged = run_bench(folder, "overlap --resume --case O1 --json " + json);
+  EXPECT_EQ(damaged.status, 3);
+  EXPECT_NE(damaged.error.find("O1.json: holds no case of a bench; delete it"), std::string::npos) << damaged.error;
+  EXPECT_EQ(run_bench(folder, "overlap --resume --case O1").status, 2) << "nothing to go on from";
+}
+
 TEST(BenchProgram, AMissedGoalEndsWithStatus4) {
   const TemporaryFolder folder;
   // The figures decide the status, whatever they are.

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include "tests/support/temporary_folder.h"
+#include "workflows/bench/case_file.h"
 
 namespace {
 
@@ -49,6 +53,31 @@ TEST(BenchReport, TablesShowTheFailureInPlaceOfTheValue) {
   const std::vector<ReportedFigure> figures{{"contact", "cube-face", figure({}, at_most(1)), "talus bench contact"}};
   EXPECT_NE(text_table(figures).find("failed: no rebound"), std::string::npos);
   EXPECT_NE(markdown_table("title", figures).find("| failed: no rebound |"), std::string::npos);
+}
+
+TEST(CaseFile, ComesBackAsWritten) {
+  const test_support::TemporaryFolder folder;
+  CaseResult result;
+  result.figures = {{"path", 0.25, "-", at_most(0.5), ""},
+                    {"speed", 2.5e7, "1/s", at_least(1), ""},
+                    {"height", std::nullopt, "m", std::nullopt, "step 3: a body flew off"}};
+  result.curves = {{"front", "depth", {1, 2}, {0.1, kFailedRun}, {"a", "b"}, true}};
+  write_case(folder / "case.json", result);
+  const CaseResult read = read_case(folder / "case.json").value();
+  ASSERT_EQ(read.figures.size(), 3u);
+  EXPECT_EQ(goal_text(read.figures[0]), "<= 0.5");
+  EXPECT_EQ(read.figures[1].value, 2.5e7);
+  EXPECT_EQ(goal_text(read.figures[1]), ">= 1");
+  EXPECT_FALSE(read.figures[2].value);
+  EXPECT_EQ(read.figures[2].failure, "step 3: a body flew off");
+  EXPECT_EQ(read.figures[2].unit, "m");
+  ASSERT_EQ(read.curves.size(), 1u);
+  EXPECT_EQ(read.curves[0].x, result.curves[0].x);
+  EXPECT_EQ(read.curves[0].y[0], 0.1);
+  EXPECT_TRUE(std::isnan(read.curves[0].y[1]));
+  EXPECT_EQ(read.curves[0].point_names, result.curves[0].point_names);
+  EXPECT_TRUE(read.curves[0].is_reference);
+  EXPECT_FALSE(read_case(folder / "none.json"));
 }
 
 }  // namespace

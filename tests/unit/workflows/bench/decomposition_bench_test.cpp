@@ -11,7 +11,9 @@
 #include "tests/support/sample_shapes.h"
 #include "tests/support/temporary_folder.h"
 #include "workflows/bench/bench_report.h"
+#include "workflows/bench/decomposition/bench_levels.h"
 #include "workflows/bench/decomposition/decomposition_page.h"
+#include "workflows/bench/decomposition/goal_rows.h"
 #include "workflows/bench/decomposition/markdown_table.h"
 #include "workflows/bench/decomposition/solids.h"
 
@@ -42,7 +44,7 @@ bool all_met(const std::vector<Figure>& figures) {
 TEST(GoalRows, AreTheTenOfTheGoalsEachWithAStretchBelowIt) {
   std::set<std::string> names;
   for (const GoalRow& row : goal_rows()) {
-    names.insert(row.solid + " " + row_text(row));
+    names.insert(row.solid + " " + row.text());
     EXPECT_LT(row.stretch, row.goal);
   }
   EXPECT_EQ(names.size(), 10u);
@@ -124,19 +126,24 @@ TEST(BenchSolids, TheTorusNeedsNoFileAndScansAreFoundByTheirNames) {
   EXPECT_EQ(BenchSolids("").missing().size(), 4u);
 }
 
+/// Figures of a case as the bench hands them to the page.
+void report(std::vector<ReportedFigure>& all, const std::string& case_name, const std::vector<Figure>& figures) {
+  for (const Figure& figure : figures) all.push_back({"decomposition", case_name, figure, "talus bench"});
+}
+
 TEST(DecompositionPage, ShowsVerdictsAndWhatWasLeftOut) {
-  DecompositionResults results;
-  results.seeds = 1;
-  results.left_out = {"itokawa (itokawa_radar_25143.tab)"};
-  results.rows = {{goal_rows()[0], 0, {run_of(0.037)}},
-                  {goal_rows()[0], 0, {run_of(0.041)}},
-                  {goal_rows()[0], 0, {run_of(0.05)}},
-                  {goal_rows()[0], 24, {run_of(0.06, 24)}}};
-  results.times = {{"stone14, 8 parts", 6, 5}};
-  const std::string page = decomposition_page(results);
+  std::vector<ReportedFigure> figures;
+  const std::vector<GoalRow>& rows = goal_rows();
+  report(figures, "stone14-64", row_figures(rows[0], {run_of(0.037)}));
+  report(figures, "stone14-32", row_figures(rows[1], {run_of(0.041)}));
+  report(figures, "stone14-64", row_figures(rows[2], {run_of(0.1)}));
+  report(figures, "stone14-64-f24", row_figures(rows[0], {run_of(0.06, 24)}));
+  report(figures, "time-stone14", {{"8 parts x 64 vertices, CPU time, median", 6, "s", at_most(5), ""}});
+  const std::string page = decomposition_page(figures, {"itokawa (itokawa_radar_25143.tab)"}, 1);
   std::size_t at = 0;
-  for (const char* expected : {"for want of files: itokawa", "stretch |\n", "   goal |\n", " missed |\n",
-                               "under a cap of 24 faces", "## Other errors", "## Rules", "stone14, 8 parts"}) {
+  for (const char* expected : {"for want of files: itokawa", "| stone14 | 8 x 64 ", " stretch |\n",
+                               "| stone14 | 8 x 32 ", " goal |\n", "| stone14 | 1 x 64 ", " missed |\n",
+                               "under a cap of 24 faces", "## Other errors", "## Rules", "| missed  |"}) {
     const std::size_t found = page.find(expected, at);
     ASSERT_NE(found, std::string::npos) << expected << " in\n" << page;
     at = found;
@@ -146,14 +153,15 @@ TEST(DecompositionPage, ShowsVerdictsAndWhatWasLeftOut) {
 }
 
 TEST(DecompositionPage, TheFrontLeavesOutWhatIsDearerAndWorse) {
-  DecompositionResults results;
+  std::vector<ReportedFigure> figures;
   for (const auto& [parts, difference, cost] :
-       {std::tuple{1, 0.09, 9.0}, {2, 0.08, 8.0}, {4, 0.05, 12.0}, {8, 0.06, 13.0}}) {
-    DecompositionResults::Front one{"stone14", run_of(difference), cost};
-    one.run.level.key.parts_asked = parts;
-    results.front.push_back(one);
+       {std::tuple{1, 9.0, 9.0}, {2, 8.0, 8.0}, {4, 5.0, 12.0}, {8, 6.0, 13.0}}) {
+    const catalog::LevelKey key{parts, 64};
+    report(figures, "front-torus",
+           {{front_figure(key, "symmetric difference"), difference, "%", {}, ""},
+            {front_figure(key, "time of a contact over that of cubes"), cost, "-", {}, ""}});
   }
-  const std::string page = decomposition_page(results);
+  const std::string page = decomposition_page(figures, {}, 1);
   EXPECT_NE(page.find("2 x 64 vertices"), std::string::npos) << page;
   EXPECT_NE(page.find("4 x 64 vertices"), std::string::npos);
   EXPECT_EQ(page.find("1 x 64 vertices"), std::string::npos);

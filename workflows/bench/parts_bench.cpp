@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// How many parts a rock needs: the same bed of rocks poured, tilted and emptied at every level of detail of a shape.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "catalog/input_error.h"
+#include "workflows/bench/bench_registry.h"
+#include "workflows/bench/catalogue_levels.h"
+#include "workflows/bench/level_cost.h"
+#include "workflows/bench/parts/rock_bed.h"
+#include "workflows/thread_count.h"
+
+namespace workflows {
+namespace {
+
+constexpr std::uint64_t kSeed = 1;
+constexpr std::uint64_t kOtherSeeds[] = {2, 3, 4};
+
+/// Largest distance of a vertex from the centre of mass, of a shape of volume 1, over its diameter.
+double reach_of(const dem_gpu::Shape& shape) {
+  double reach = 0;
+  for (const catalog::ConvexPart& part : std::get<dem_gpu::PolyhedralShape>(shape.geometry).parts)
+    for (const catalog::Point& vertex : part.vertices)
+      reach = std::max(reach, std::hypot(vertex[0], vertex[1], vertex[2]));
+  return reach / std::cbrt(6 / std::numbers::pi);
+}
+
+double largest_reach(const ShapeLevels& rock) {
+  double reach = 0;
+  for (const Level& level : rock.shape.levels) reach = std::max(reach, reach_of(rock.unit_shape(level)));
+  return reach;
+}
+
+/// What the bed answers, and what it costs. A run that fails says why in each figure.
+struct Response {
+  PouredBed poured;
+  double angle = kFailedRun;
+  EmptiedBed emptied{kFailedRun, kFailedRun};
+  std::string failure;
+};
+
+Response respond(const dem_gpu::Shape& shape, double reach, std::uint64_t seed) {
+  Response response;
+  try {
+    response.poured = pour_bed(shape, reach, seed);
+    response.angle = slide_angle(shape, response.poured);
+    response.emptied = empty_bed(shape, response.poured);
+  } catch (const std::runtime_error& error) {
+    response.failure = error.what();
+  }
+  return response;
+}
+
+using Answer = std::pair<const char*, double (*)(const Response&)>;
+constexpr Answer kAnswers[] = {{"packing fraction [-]", [](const Response& r) { return r.poured.packing_fraction; }},
+                               {"slide angle [degrees]", [](const Response& r) { return r.angle; }},
+                               {"half emptied after [s]", [](const Response& r) { return r.emptied.half_time; }},
+                               {"share left on the shelf [-]", [](const Response& r) { return r.emptied.left; }}};
+
+void add(CaseResult& result, const std::string& name, double value, const std::string& failure) {
+  Figure figure{name, value, "", {}, failure};
+  if (std::isnan(value)) {
+    figure.value.reset();
+    if (failure.empty()) figure.failure = "not reached";
+  }
+  result.figures.push_back(figure);
+}
+
+CaseResult measure_levels(const ShapeLevels& rock, const std::vector<Level>& ladder) {
+  CaseResult result;
+  const double reach = largest_reach(rock);
+  std::vector<PlotCurve> curves;
+  for (const char* plot : {"packing", "angle", "emptying", "left", "cost"})
+    curves.push_back({plot, rock.shape.name + ", " + ladder_text(ladder.front().key), {}, {}, {}});
+  for (const Level& level : ladder) {
+    const Response response = respond(rock.unit_shape(level), reach, kSeed);
+    const std::string at = std::to_string(level.key.parts_asked) + " parts: ";
+    add(result, at + "symmetric difference [-]", level.error.symmetric_difference, "");
+    for (const auto& [name, value] : kAnswers) add(result, at + name, value(response), response.failure);
+    add(result, at + "contacts a rock [-]", response.poured.contacts, response.failure);
+    add(result, at + "time a step [ms]", 1e3 * response.poured.step_time, response.failure);
+    add(result, at + "largest overlap over d [-]", response.poured.largest_overlap, response.failure);
+    add(result, at + "energy imbalance over throughput [-]", response.poured.imbalance, response.failure);
+    const double y[] = {response.poured.packing_fraction, response.angle, response.emptied.half_time,
+                        response.emptied.left, 1e3 * response.poured.step_time};
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      curves[i].x.push_back(100 * level.error.symmetric_difference);
+      curves[i].y.push_back(response.failure.empty() ? y[i] : kFailedRun);
+      curves[i].point_names.push_back(std::to_string(level.key.parts_asked) + " parts");
+    }
+  }
+  result.curves = std::move(curves);
+  return result;
+}
+
+/// Standard deviation of each answer over other places and attitudes of the rocks, at the cheapest level.
+CaseResult measure_spread(const ShapeLevels& rock) {
+  const Level cheapest =
+      *std::min_element(rock.shape.levels.begin(), rock.shape.levels.end(),
+                        [](const Level& a, const Level& b) { return contact_cost(a) < contact_cost(b); });
+  const dem_gpu::Shape shape = rock.unit_shape(cheapest);
+  const double reach = largest_reach(rock);
+  std::vector<Response> responses;
+  for (const std::uint64_t seed : kOtherSeeds) responses.push_back(respond(shape, reach, seed));
+  CaseResult result;
+  for (const auto& [name, value] : kAnswers) {
+    std::string failure;
+    double mean = 0, square = 0;
+    const auto count = static_cast<double>(responses.size());
+    for (const Response& response : responses) {
+      if (!response.failure.empty()) failure = response.failure;
+      mean += value(response) / count;
+    }
+    for (const Response& response : responses) square += std::pow(value(response) - mean, 2);
+    add(result, std::string("mean of ") + name, mean, failure);
+    add(result, std::string("standard deviation of ") + name, std::sqrt(square / (count - 1)), failure);
+  }
+  return result;
+}
+
+}  // namespace
+
+BenchPlan plan_parts_bench(const BenchOptions& options) {
+  BenchPlan plan;
+  const std::string error = "symmetric difference [%]";
+  plan.plots = {{"packing", "Packing fraction of the poured bed", error, "packing fraction [-]", true},
+                {"angle", "Tilt at which the bed slides", error, "angle [degrees]", true},
+                {"emptying", "Time until half of the rocks are out", error, "time [s]", true},
+                {"left", "Share of the rocks that stays on the shelf", error, "share [-]", true},
+                {"cost", "Cost of a step of 300 rocks", error, "time a step [ms]"}};
+  if (options.catalogue.empty()) {
+    plan.cases = {{"levels", []() -> CaseResult {
+                     throw catalog::UsageError("bench parts: no catalogue; add --catalog ore.talus");
+                   }}};
+    return plan;
+  }
+  if (!options.threads.empty()) set_thread_count(options.threads.front());
+  for (const ShapeLevels& rock : levels_of_catalogue(options.catalogue)) {
+    for (const auto& [name, ladder] : rock.ladders())
+      plan.cases.push_back(
+          {rock.shape.name + "-" + name, [rock, ladder = ladder] { return measure_levels(rock, ladder); }});
+    plan.cases.push_back({rock.shape.name + "-spread", [rock] { return measure_spread(rock); }});
+  }
+  return plan;
+}
+
+}  // namespace workflows
