@@ -27,6 +27,7 @@ Measures speed and error on named cases.
   talus bench --list
   talus bench contact --json results/contact.json
   talus bench laws --case face-slide-depth
+  talus bench decomposition --scans scans/ --out results    (where decomposition is built)
 
 The table goes to stdout. --json FILE writes one JSON object a line; beside it stand the table in Markdown and the plots
 in SVG; the finished cases are kept in FILE.cases, so that a bench that was stopped goes on with --resume. Exit status 4
