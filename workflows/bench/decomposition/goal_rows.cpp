@@ -126,12 +126,14 @@ const std::vector<RowFigure>& rule_figures() {
 }
 
 std::vector<Figure> row_figures(const GoalRow& row, const std::vector<LevelRun>& runs) {
-  const bool has_goals = runs.front().level.key.face_cap == 0;
+  const bool is_capped = runs.front().level.key.face_cap > 0;
   std::vector<Figure> figures;
   for (const auto* group : {&difference_figures(), &error_figures(), &rule_figures()})
-    for (const RowFigure& figure : *group)
+    for (const RowFigure& figure : *group) {
+      const bool has_goal = figure.goal && !(is_capped && group == &difference_figures());
       figures.push_back({figure.name_in(row), figure.over_seeds(runs, figure.of), figure.unit,
-                         figure.goal && has_goals ? figure.goal(row) : std::nullopt, ""});
+                         has_goal ? figure.goal(row) : std::nullopt, ""});
+    }
   return figures;
 }
 

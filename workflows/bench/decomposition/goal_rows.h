@@ -28,7 +28,7 @@ struct GoalRow {
 
 const std::vector<GoalRow>& goal_rows();
 
-/// Caps of faces that the rows are measured under; the goals hold for the first, 0, which is none.
+/// Caps of faces that the rows are measured under; the goals of the difference hold for the first, 0, which is none.
 inline constexpr int kFaceCaps[] = {0, 24, 34};
 
 /// A figure of a row, over its seeds, and how the page shows it.
@@ -49,7 +49,7 @@ const std::vector<RowFigure>& difference_figures();
 const std::vector<RowFigure>& error_figures();
 const std::vector<RowFigure>& rule_figures();
 
-/// All of them from the runs of a row's seeds; goals only where there is no cap of faces.
+/// All of them from the runs of a row's seeds. Under a cap of faces the rules have goals, the difference has none.
 std::vector<Figure> row_figures(const GoalRow& row, const std::vector<LevelRun>& runs);
 
 }  // namespace workflows
