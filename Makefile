@@ -7,7 +7,7 @@ CUDA_ARCHITECTURES ?= 90
 NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
 STAGES := talus talus-digitize talus-decompose talus-catalog talus-simulate talus-post
 
-.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy study gpu-check exact-pairs large-mesh format check-format clean
+.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy study gpu-check exact-pairs large-mesh decomposition format check-format clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -78,6 +78,15 @@ exact-pairs: $(BUILD)/CMakeCache.txt  ## A million random pairs against exact ar
 large-mesh: $(BUILD)/CMakeCache.txt  ## Memory and time of decomposing 2,000,000 faces (10 CPU seconds); FACES=number
 	cmake --build $(BUILD) --parallel $(JOBS) --target test_large_mesh
 	TALUS_LARGE_FACES=$(or $(FACES),2000000) $(BUILD)/tests/test_large_mesh
+
+ifeq ($(SCANS),)
+decomposition:
+	@echo 'decomposition: state where the scans lie, such as make decomposition SCANS=../shared/data/real' >&2; exit 2
+else
+decomposition: $(BUILD)/CMakeCache.txt  ## Decomposition of real scans against its goals; SCANS=folder; writes docs/results/decomposition.md
+	cmake --build $(BUILD) --parallel $(JOBS) --target talus talus-bench
+	$(BUILD)/bin/talus bench decomposition --scans "$(SCANS)" --out docs/results || [ $$? -eq 4 ]
+endif
 
 format:  ## Format every source file
 	git ls-files '*.cpp' '*.h' | xargs clang-format -i

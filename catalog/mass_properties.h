@@ -113,20 +113,27 @@ inline void symmetric_eigen(Matrix3 matrix, Point& values, Matrix3& axes) {
              axes[0][0] * axes[1][1] - axes[0][1] * axes[1][0]};
 }
 
+/// Inertia tensor of a solid of density 1 about its centre of mass, axes of the moments' frame [m5].
+inline Matrix3 inertia_tensor(const VolumeMoments& moments) {
+  Point centroid;
+  for (int i = 0; i < 3; ++i) centroid[i] = moments.first[i] / moments.volume;
+  Matrix3 central = moments.second;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) central[i][j] -= moments.volume * centroid[i] * centroid[j];
+  const double trace = central[0][0] + central[1][1] + central[2][2];
+  Matrix3 inertia;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) inertia[i][j] = (i == j ? trace : 0) - central[i][j];
+  return inertia;
+}
+
 /// Centroid, principal inertia and principal axes of a solid of density 1 from its moments.
 inline MassProperties mass_properties(const VolumeMoments& moments) {
   MassProperties result;
   result.volume = moments.volume;
   if (moments.volume == 0) return result;
   for (int i = 0; i < 3; ++i) result.centroid[i] = moments.first[i] / moments.volume;
-  Matrix3 central = moments.second;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) central[i][j] -= moments.volume * result.centroid[i] * result.centroid[j];
-  const double trace = central[0][0] + central[1][1] + central[2][2];
-  Matrix3 inertia;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) inertia[i][j] = (i == j ? trace : 0) - central[i][j];
-  symmetric_eigen(inertia, result.principal_inertia, result.principal_axes);
+  symmetric_eigen(inertia_tensor(moments), result.principal_inertia, result.principal_axes);
   return result;
 }
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "catalog/input_error.h"
+#include "catalog/sqlite/level_rows.h"
 #include "catalog/sqlite/query.h"
 #include "catalog/sqlite/schema.h"
 #include "catalog/sqlite/shape_rows.h"
@@ -82,8 +83,8 @@ ShapeRecord ShapeCatalog::shape(ShapeId id) const { return sqlite::read_shape(co
 
 ShapeSummary ShapeCatalog::summary(ShapeId id) const { return sqlite::read_summary(connection_->database, id); }
 
-LevelOfDetail ShapeCatalog::level(ShapeId id, int parts_asked, int vertex_cap) const {
-  return sqlite::read_level(connection_->database, id, parts_asked, vertex_cap);
+LevelOfDetail ShapeCatalog::level(ShapeId id, const LevelKey& key) const {
+  return sqlite::read_level(connection_->database, id, summary(id).name, key);
 }
 
 std::vector<RejectedInput> ShapeCatalog::rejected() const {

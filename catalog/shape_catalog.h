@@ -24,13 +24,12 @@ struct ShapeSummary {
   std::map<std::string, double> descriptors;
   std::vector<std::string> failed_checks;
   struct Level {
-    int parts_asked = 0;
+    LevelKey key;
     int parts = 0;
-    int vertex_cap = 0;
     int vertices = 0, faces = 0;  // of all parts
     DecompositionError error;
   };
-  std::vector<Level> levels;  // ascending parts_asked, then vertex_cap
+  std::vector<Level> levels;  // volume-true ones first; by parts asked for, cap of vertices, cap of faces
 };
 
 /// A particle that could not be used: kept with its reason, so that a batch can list it and a curator find it.
@@ -58,13 +57,13 @@ class ShapeCatalog {
   ShapeId store_shape(const ShapeRecord& shape);
   void store_rejected(const RejectedInput& rejected);
   void forget_rejected(const std::string& name);  // no write if there is no such row
-  /// Stores or replaces the levels with the same (parts_asked, vertex_cap), all in one transaction.
+  /// Stores or replaces the levels with the same keys, all in one transaction.
   void store_levels(ShapeId id, const std::vector<LevelOfDetail>& levels);
 
   std::optional<ShapeId> find(const std::string& name) const;
   ShapeRecord shape(ShapeId id) const;
   ShapeSummary summary(ShapeId id) const;
-  LevelOfDetail level(ShapeId id, int parts_asked, int vertex_cap) const;
+  LevelOfDetail level(ShapeId id, const LevelKey& key) const;
   std::vector<RejectedInput> rejected() const;
 
   /// Ids in ascending order of name. Empty selects all; for example

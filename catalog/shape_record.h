@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "catalog/convex_part.h"
+#include "catalog/fit_mode.h"
 #include "catalog/mass_properties.h"
 #include "catalog/triangle_mesh.h"
 
@@ -38,21 +39,57 @@ struct ShapeRecord {
   std::vector<Check> checks;
 };
 
-/// Measured error of a level of detail against its mesh.
+/// Distances from points spread over one surface to another, over the bounding-box diagonal of the mesh [-].
+struct SurfaceDistance {
+  double mean = 0;
+  double percentile_95 = 0;  // 95 % of the points are at most this far away
+  double largest = 0;        // sampled one-sided Hausdorff distance
+
+  friend bool operator==(const SurfaceDistance&, const SurfaceDistance&) = default;
+};
+
+/// Measured error of a level of detail against its mesh. A figure that was not measured is not a number: levels of
+/// catalogues of an older schema lack those that came later.
 struct DecompositionError {
   double symmetric_difference = 0;  // V(union xor mesh) / V(mesh) [-]
-  double missing_volume = 0;        // V(mesh minus union) / V(mesh) [-]
-  double volume_error = 0;          // (V(union) - V(mesh)) / V(mesh), signed [-]
-  double surface_mean = 0;          // two-sided mean surface distance / bounding-box diagonal [-]
-  double surface_max = 0;           // two-sided largest (sampled Hausdorff) / bounding-box diagonal [-]
-  double overlap = 0;               // sum of part volumes / V(union) - 1 [-]; 0 for a partition
   double method_error = 0;          // standard error of symmetric_difference by the measuring method [-]
+  double missing_volume = 0;        // V(mesh minus union) / V(mesh) [-]
+  double volume_error = 0;          // (V(union) - V(mesh)) / V(mesh), signed: of the mass at equal density [-]
+  double overlap = 0;               // sum of part volumes / V(union) - 1 [-]; 0 for a partition
+
+  SurfaceDistance surface_from_mesh;   // points of the mesh to the union's surface
+  SurfaceDistance surface_from_union;  // points of the union's surface to the mesh
+  SurfaceDistance surface;             // two-sided: both sets of points together, each of the same weight
+
+  double centre_error = 0;     // distance of the centres of mass / bounding-box diagonal [-]
+  double inertia_error = 0;    // |J - J_mesh| / |J_mesh|, Frobenius norms of the inertia tensors about own centres [-]
+  double convexity_error = 0;  // V / V_hull of the union less that of the mesh, signed [-]
+
+  friend bool operator==(const DecompositionError&, const DecompositionError&) = default;
 };
+
+/// Tells the levels of one shape apart: a level made with the same key takes the place of the one before.
+struct LevelKey {
+  int parts_asked = 0;  // 1, 2, 4, 8, ...: a level has at most as many parts
+  int vertex_cap = 0;   // largest number of vertices a part may have
+  int face_cap = 0;     // largest number of faces a part may have; 0: no cap
+  FitMode mode = FitMode::volume_true;
+
+  friend bool operator==(const LevelKey&, const LevelKey&) = default;
+};
+
+/// "8 parts of at most 32 vertices and 24 faces, enclosing"; what is usual (no cap of faces, volume-true) is left out.
+inline std::string described(const LevelKey& key) {
+  std::string text = std::to_string(key.parts_asked) + (key.parts_asked == 1 ? " part" : " parts") + " of at most " +
+                     std::to_string(key.vertex_cap) + " vertices";
+  if (key.face_cap > 0) text += " and " + std::to_string(key.face_cap) + " faces";
+  if (key.mode != FitMode::volume_true) text += ", " + mode_name(key.mode);
+  return text;
+}
 
 /// One level of detail of a shape: a partition into convex parts in the frame of ShapeRecord::mesh.
 struct LevelOfDetail {
-  int parts_asked = 0;  // 1, 2, 4, 8, ...: parts.size() is at most this
-  int vertex_cap = 0;   // largest number of vertices a part may have
+  LevelKey key;
   std::vector<ConvexPart> parts;
   MassProperties mass_properties;  // of the union, in the mesh's frame (centroid need not be exactly 0)
   DecompositionError error;

@@ -60,21 +60,20 @@ std::string provenance_json(DecompositionOptions options, int parts_asked, const
          ",\"most_faces\":" + std::to_string(measured.most_faces) + "}}";
 }
 
-catalog::LevelOfDetail make_level(const catalog::TriangleMesh& mesh, LevelSearch& search, int parts_asked,
+catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, LevelSearch& search, int parts_asked,
                                   const DecompositionOptions& options) {
   FoundLevel found = search.find(parts_asked);
   if (found.parts.empty())
     throw catalog::InputError("mesh: no convex part could be fitted to it; check that it is a solid");
   catalog::LevelOfDetail level;
-  level.parts_asked = parts_asked;
-  level.vertex_cap = options.vertex_cap;
+  level.key = {parts_asked, options.vertex_cap, options.face_cap, options.mode};
   catalog::VolumeMoments moments;
   for (BuiltPart& part : found.parts) {
     moments += catalog::volume_moments(catalog::triangulated(part.part));
     level.parts.push_back(std::move(part.part));
   }
   level.mass_properties = catalog::mass_properties(moments);
-  level.error = measure_error(mesh, level.parts);
+  level.error = measure(level.parts);
   LevelFigures measured = figures(level.parts);
   measured.ledge_area = found.ledge_area;
   level.provenance.options = provenance_json(options, parts_asked, measured);
@@ -112,9 +111,10 @@ std::vector<catalog::LevelOfDetail> decompose_ladder(const catalog::TriangleMesh
   const SolidSurface surface = solid_surface(mesh, options.bodies);
   const catalog::TriangleMesh& solid = surface.cleaned ? *surface.cleaned : mesh;
   LevelSearch search(solid, options);
+  const ErrorMeasurement measure(solid);
   std::vector<catalog::LevelOfDetail> levels;
   for (const int count : part_counts) {
-    levels.push_back(make_level(solid, search, count, options));
+    levels.push_back(make_level(measure, search, count, options));
     levels.back().provenance.options.back() = ',';
     levels.back().provenance.options += "\"mesh\":" + surface.notes.json() + "}";
   }
@@ -133,17 +133,6 @@ std::string bodies_name(SeparateBodies bodies) {
       return "refuse";
     default:
       return "join";
-  }
-}
-
-std::string mode_name(FitMode mode) {
-  switch (mode) {
-    case FitMode::enclosing:
-      return "enclosing";
-    case FitMode::inscribed:
-      return "inscribed";
-    default:
-      return "volume-true";
   }
 }
 

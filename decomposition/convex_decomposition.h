@@ -10,12 +10,7 @@
 
 namespace decomposition {
 
-/// What the parts are to the solid.
-enum class FitMode {
-  volume_true,  // the union has the mesh's volume, and the symmetric difference is least
-  enclosing,    // nothing is missing: every point of the mesh lies in a part
-  inscribed     // nothing sticks out of the mesh
-};
+using catalog::FitMode;
 
 /// What becomes of closed surfaces that lie apart from one another.
 enum class SeparateBodies {
@@ -83,9 +78,6 @@ std::vector<catalog::LevelOfDetail> decompose_ladder(const catalog::TriangleMesh
 
 /// Figures of finished parts; ledge_area needs the cuts and stays 0 here, a level's provenance has it.
 LevelFigures figures(const std::vector<catalog::ConvexPart>& parts);
-
-/// "volume-true", "enclosing" or "inscribed".
-std::string mode_name(FitMode mode);
 
 /// "join", "largest" or "refuse".
 std::string bodies_name(SeparateBodies bodies);

@@ -5,17 +5,18 @@
 #include <utility>
 
 #include "catalog/mass_properties.h"
+#include "decomposition/geometry/faceted_hull.h"
 #include "decomposition/geometry/random.h"
-#include "decomposition/quality/triangle_tree.h"
+#include "decomposition/quality/surface_distance.h"
 #include "decomposition/solid/ray_grid.h"
 
 namespace decomposition {
 namespace {
 
-using TriangleSoup = std::vector<std::array<Vec3, 3>>;
-
 // Share of the diagonal: a sample point this deep in another part, or on its surface, is covered by it.
 constexpr double kCovered = 1e-9;
+// Streams of random numbers beside those of the ray sets, which count from 0.
+constexpr std::uint64_t kMeshStream = 1000, kPartStream = 1001;
 
 std::vector<Vec3> turned(const std::vector<catalog::Point>& points, const Frame& frame) {
   std::vector<Vec3> result;
@@ -94,88 +95,9 @@ RayLengths trace(const catalog::TriangleMesh& mesh, const std::vector<catalog::T
   return {sum.mesh * area, sum.parts * area, sum.parts_union * area, sum.common * area};
 }
 
-TriangleSoup soup(const catalog::TriangleMesh& mesh) {
-  TriangleSoup triangles;
-  for (const catalog::Triangle& face : mesh.faces)
-    triangles.push_back({to_vec3(mesh.vertices[static_cast<std::size_t>(face[0])]),
-                         to_vec3(mesh.vertices[static_cast<std::size_t>(face[1])]),
-                         to_vec3(mesh.vertices[static_cast<std::size_t>(face[2])])});
-  return triangles;
-}
-
-/// Points spread over the triangles in proportion to their area, each with the number of its triangle.
-std::vector<std::pair<Vec3, std::size_t>> spread_points(const TriangleSoup& triangles, int count, Random& random) {
-  std::vector<double> passed;
-  double total = 0;
-  for (const auto& [a, b, c] : triangles) passed.push_back(total += norm(cross(b - a, c - a)) / 2);
-  std::vector<std::pair<Vec3, std::size_t>> points;
-  std::size_t t = 0;
-  for (int k = 0; k < count; ++k) {
-    const double target = total * (k + random.uniform()) / count;
-    while (t + 1 < triangles.size() && passed[t] < target) ++t;
-    double u = random.uniform(), v = random.uniform();
-    if (u + v > 1) u = 1 - u, v = 1 - v;
-    const auto& [a, b, c] = triangles[t];
-    points.push_back({a + u * (b - a) + v * (c - a), t});
-  }
-  return points;
-}
-
-bool is_covered(const Vec3& p, const catalog::ConvexPart& part, double tolerance) {
-  return std::all_of(part.faces.begin(), part.faces.end(), [&](const catalog::ConvexFace& face) {
-    return dot(to_vec3(face.plane.normal), p) - face.plane.offset <= tolerance;
-  });
-}
-
-void measure_surfaces(const catalog::TriangleMesh& mesh, const std::vector<catalog::ConvexPart>& parts,
-                      const QualityOptions& options, double diagonal, catalog::DecompositionError& error) {
-  Random random(sub_seed(options.seed, 99));
-  const TriangleSoup mesh_triangles = soup(mesh);
-  TriangleSoup part_triangles, outer_triangles;
-  std::vector<std::size_t> owner;
-  for (std::size_t p = 0; p < parts.size(); ++p)
-    for (const catalog::ConvexFace& face : parts[p].faces)
-      for (std::size_t corner = 2; corner < face.vertices.size(); ++corner) {
-        const auto at = [&](std::size_t k) {
-          return to_vec3(parts[p].vertices[static_cast<std::size_t>(face.vertices[k])]);
-        };
-        part_triangles.push_back({at(0), at(corner - 1), at(corner)});
-        owner.push_back(p);
-        if (face.kind == catalog::FaceKind::outer) outer_triangles.push_back(part_triangles.back());
-      }
-  const TriangleTree mesh_tree(mesh_triangles), outer_tree(outer_triangles);
-  double sum[2] = {0, 0};
-  int count[2] = {0, 0};
-  const auto add = [&](int direction, double distance) {
-    sum[direction] += distance / diagonal;
-    ++count[direction];
-    error.surface_max = std::fmax(error.surface_max, distance / diagonal);
-  };
-  for (const auto& [p, triangle] : spread_points(mesh_triangles, options.surface_samples, random))
-    add(0, outer_tree.distance(p));
-  for (const auto& [p, triangle] : spread_points(part_triangles, options.surface_samples, random)) {
-    bool is_inner = false;
-    for (std::size_t other = 0; other < parts.size() && !is_inner; ++other)
-      is_inner = other != owner[triangle] && is_covered(p, parts[other], kCovered * diagonal);
-    if (!is_inner) add(1, mesh_tree.distance(p));
-  }
-  error.surface_mean = (sum[0] / std::max(1, count[0]) + sum[1] / std::max(1, count[1])) / 2;
-}
-
-}  // namespace
-
-catalog::DecompositionError measure_error(const catalog::TriangleMesh& mesh,
-                                          const std::vector<catalog::ConvexPart>& parts,
-                                          const QualityOptions& options) {
-  catalog::DecompositionError error;
-  std::vector<catalog::TriangleMesh> hulls;
-  double part_volume = 0;
-  for (const catalog::ConvexPart& part : parts) {
-    hulls.push_back(catalog::triangulated(part));
-    part_volume += catalog::volume_moments(hulls.back()).volume;
-  }
-  const double volume = catalog::volume_moments(mesh).volume;
-  error.volume_error = part_volume / volume - 1;
+/// Volumes by rays: symmetric difference with its standard error, missing volume, overlap.
+void measure_volumes(const catalog::TriangleMesh& mesh, const std::vector<catalog::TriangleMesh>& hulls,
+                     const QualityOptions& options, double volume, catalog::DecompositionError& error) {
   std::vector<double> differences;
   RayLengths total;
   for (int set = 0; set < options.ray_sets; ++set) {
@@ -195,10 +117,90 @@ catalog::DecompositionError measure_error(const catalog::TriangleMesh& mesh,
   if (sets > 1) error.method_error = std::sqrt(variance / (sets * (sets - 1)));
   error.missing_volume = (total.mesh - total.common) / (sets * volume);
   error.overlap = total.parts_union > 0 ? total.parts / total.parts_union - 1 : 0;
+}
+
+double norm_of(const catalog::Matrix3& matrix) {  // Frobenius
+  double sum = 0;
+  for (const auto& row : matrix)
+    for (const double entry : row) sum += entry * entry;
+  return std::sqrt(sum);
+}
+
+catalog::Matrix3 difference(catalog::Matrix3 a, const catalog::Matrix3& b) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) a[i][j] -= b[i][j];
+  return a;
+}
+
+double hull_volume(const std::vector<Vec3>& points) {
+  double six_volumes = 0;
+  for (const auto& [a, b, c] : hull_triangles(points))
+    six_volumes += dot(points[static_cast<std::size_t>(a)] - points.front(),
+                       cross(points[static_cast<std::size_t>(b)] - points.front(),
+                             points[static_cast<std::size_t>(c)] - points.front()));
+  return six_volumes / 6;
+}
+
+}  // namespace
+
+/// What is the same for all parts that are measured against a mesh.
+struct ErrorMeasurement::Reference {
+  const catalog::TriangleMesh& mesh;
+  QualityOptions options;
+  catalog::VolumeMoments moments;
+  double diagonal, convexity;
+  std::vector<Vec3> surface_points;
+  TriangleTree surface;
+};
+
+ErrorMeasurement::ErrorMeasurement(const catalog::TriangleMesh& mesh, const QualityOptions& options) {
   std::vector<Vec3> corners;
+  corners.reserve(mesh.vertex_count());
   for (const catalog::Point& p : mesh.vertices) corners.push_back(to_vec3(p));
-  measure_surfaces(mesh, parts, options, bounding_box(corners).diagonal(), error);
+  const catalog::VolumeMoments moments = catalog::volume_moments(mesh);
+  TriangleSoup triangles = soup(mesh);
+  Random random(sub_seed(options.seed, kMeshStream));
+  std::vector<Vec3> points = spread_points(triangles, options.surface_samples, random).points;
+  reference_.reset(new Reference{mesh, options, moments, bounding_box(corners).diagonal(),
+                                 moments.volume / hull_volume(corners), std::move(points),
+                                 TriangleTree(std::move(triangles))});
+}
+
+ErrorMeasurement::~ErrorMeasurement() = default;
+
+catalog::DecompositionError ErrorMeasurement::operator()(const std::vector<catalog::ConvexPart>& parts) const {
+  const auto& [mesh, options, mesh_moments, diagonal, convexity, mesh_points, mesh_tree] = *reference_;
+  std::vector<catalog::TriangleMesh> hulls;
+  std::vector<Vec3> corners;
+  catalog::VolumeMoments moments;
+  for (const catalog::ConvexPart& part : parts) {
+    hulls.push_back(catalog::triangulated(part));
+    moments += catalog::volume_moments(hulls.back());
+    for (const catalog::Point& p : part.vertices) corners.push_back(to_vec3(p));
+  }
+  catalog::DecompositionError error;
+  measure_volumes(mesh, hulls, options, mesh_moments.volume, error);
+  error.volume_error = moments.volume / mesh_moments.volume - 1;
+  const auto centre = [](const catalog::VolumeMoments& of) { return 1 / of.volume * to_vec3(of.first); };
+  error.centre_error = norm(centre(moments) - centre(mesh_moments)) / diagonal;
+  const catalog::Matrix3 inertia = catalog::inertia_tensor(mesh_moments);
+  error.inertia_error = norm_of(difference(catalog::inertia_tensor(moments), inertia)) / norm_of(inertia);
+  error.convexity_error = moments.volume / (1 + error.overlap) / hull_volume(corners) - convexity;
+
+  Random random(sub_seed(options.seed, kPartStream));
+  const std::vector<double> from_mesh = distances_to_union(mesh_points, parts);
+  const std::vector<double> from_union =
+      distances_to_mesh(parts, mesh_tree, options.surface_samples, kCovered * diagonal, random);
+  error.surface_from_mesh = summary(from_mesh, diagonal);
+  error.surface_from_union = summary(from_union, diagonal);
+  error.surface = summary(from_mesh, from_union, diagonal);
   return error;
+}
+
+catalog::DecompositionError measure_error(const catalog::TriangleMesh& mesh,
+                                          const std::vector<catalog::ConvexPart>& parts,
+                                          const QualityOptions& options) {
+  return ErrorMeasurement(mesh, options)(parts);
 }
 
 }  // namespace decomposition

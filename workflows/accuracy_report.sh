@@ -4,7 +4,7 @@
 # that makes it.
 #   workflows/accuracy_report.sh BUILD [BUILD_MIXED]
 # BUILD, BUILD_MIXED: build folders of the double and the mixed precision engine with their tests. BENCHES and
-# MIXED_BENCHES name the benches to run (default: all that need no catalogue; those of polyhedra, since spheres are in double in either).
+# MIXED_BENCHES name the benches to run (default: all that need neither catalogue nor scans; those of polyhedra, since spheres are in double in either).
 set -eu
 
 build=${1:?usage: workflows/accuracy_report.sh BUILD [BUILD_MIXED]}
@@ -14,7 +14,7 @@ plots=docs/results/plots
 for folder in "$build" ${mixed:+"$mixed"}; do
   [ -x "$folder/bin/talus" ] || { echo "accuracy_report: no $folder/bin/talus; build it first" >&2; exit 2; }
 done
-: "${BENCHES:=$("$build/bin/talus" bench --list | sed -n '/^levels:/d; /^parts:/d; s/^\([a-z_]*\):.*/\1/p')}"
+: "${BENCHES:=$("$build/bin/talus" bench --list | sed -n '/^levels:/d; /^parts:/d; /^decomposition:/d; s/^\([a-z_]*\):.*/\1/p')}"
 : "${MIXED_BENCHES:=overlap contact laws bulk pile}"
 
 work=$(mktemp -d)

@@ -27,6 +27,7 @@ Measures speed and error on named cases.
   talus bench --list
   talus bench contact --json results/contact.json
   talus bench laws --case face-slide-depth
+  talus bench decomposition --scans scans/ --out results    (where decomposition is built)
 
 The table goes to stdout. --json FILE writes one JSON object a line; beside it stand the table in Markdown and the plots
 in SVG; the finished cases are kept in FILE.cases, so that a bench that was stopped goes on with --resume. Exit status 4
@@ -39,6 +40,8 @@ struct Options {
   fs::path out;           // folder of table and plots; empty: beside --json
   std::vector<int> threads;
   fs::path catalogue;  // empty: none
+  fs::path scans;      // empty: none
+  int seeds = 5;
   bool is_list = false;
   bool resumes = false;  // with the cases that are kept
 };
@@ -56,6 +59,10 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
       ->delimiter(',')
       ->check(CLI::Range(1, 1000000));
   app.add_option("--catalog", options.catalogue, "shape catalogue, for the benches levels and parts");
+  app.add_option("--scans", options.scans, "folder of scans, for the bench decomposition");
+  app.add_option("--seeds", options.seeds, "searches of each level, for the bench decomposition")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
   app.add_flag("--resume", options.resumes, "measure only the cases that an earlier run with this --json has not");
   app.add_flag("--list", options.is_list, "name the benches and their cases");
   app.set_version_flag("--version", tool_version());
@@ -73,10 +80,15 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
   return options;
 }
 
-int list_benches() {
+BenchOptions bench_options(const Options& options) {
+  return {options.threads, options.catalogue, options.scans, options.seeds};
+}
+
+int list_benches(const Options& options) {
   for (const Bench& bench : benches()) {
     std::printf("%s: %s\n ", bench.name.c_str(), bench.summary.c_str());
-    for (const BenchCase& bench_case : bench.plan({}).cases) std::printf(" %s", bench_case.name.c_str());
+    for (const BenchCase& bench_case : bench.plan(bench_options(options)).cases)
+      std::printf(" %s", bench_case.name.c_str());
     std::printf("\n");
   }
   return kDone;
@@ -96,6 +108,8 @@ std::vector<BenchCase> chosen_cases(const BenchPlan& plan, const Options& option
 std::string command_of(const Options& options, const BenchCase& bench_case) {
   std::string command = "talus bench " + options.bench + " --case " + bench_case.name;
   if (!options.catalogue.empty()) command += " --catalog " + options.catalogue.string();
+  if (!options.scans.empty()) command += " --scans DIR";  // results are shared between machines
+  if (options.seeds != Options{}.seeds) command += " --seeds " + std::to_string(options.seeds);
   for (std::size_t i = 0; i < options.threads.size(); ++i)
     command += (i ? "," : " --threads ") + std::to_string(options.threads[i]);
   return command;
@@ -145,17 +159,21 @@ void write_files(const Bench& bench, const BenchPlan& plan, const Measured& meas
   fs::create_directories(options.out);
   fs::create_directories(fs::absolute(options.json).parent_path());
   write_whole(options.json, json_lines(measured.figures));
-  write_whole(options.out / (stem + ".md"),
-              markdown_table("talus bench " + bench.name + ": " + bench.summary, measured.figures));
-  for (const PlotAxes& axes : plan.plots)
-    write_whole(options.out / (stem + "_" + axes.name + ".svg"), log_plot_svg(axes, measured.curves));
+  std::string page = plan.page ? plan.page(measured.figures)
+                               : markdown_table("talus bench " + bench.name + ": " + bench.summary, measured.figures);
+  for (const PlotAxes& axes : plan.plots) {
+    const std::string plot = stem + "_" + axes.name + ".svg";
+    write_whole(options.out / plot, log_plot_svg(axes, measured.curves));
+    if (plan.page) page += "\n![" + axes.title + "](" + plot + ")\n";
+  }
+  write_whole(options.out / (stem + ".md"), page);
 }
 
 int run_bench(const Options& options) {
   const Bench& bench = bench_named(options.bench);
-  const BenchPlan plan = bench.plan({options.threads, options.catalogue});
+  const BenchPlan plan = bench.plan(bench_options(options));
   const Measured measured = measure(chosen_cases(plan, options), options);
-  std::fputs(text_table(measured.figures).c_str(), stdout);
+  std::fputs((plan.page ? plan.page(measured.figures) : text_table(measured.figures)).c_str(), stdout);
   if (!options.json.empty()) write_files(bench, plan, measured, options);
   for (const ReportedFigure& reported : measured.figures)
     if (!reported.figure.value || is_goal_met(reported.figure) == false) return kCheckNotPassed;
@@ -169,6 +187,6 @@ int main(int argc, char** argv) {
     const auto parsed = parse_options(argc, argv);
     if (const auto* status = std::get_if<ExitStatus>(&parsed)) return *status;
     const Options& options = std::get<Options>(parsed);
-    return options.is_list ? list_benches() : run_bench(options);
+    return options.is_list ? list_benches(options) : run_bench(options);
   });
 }

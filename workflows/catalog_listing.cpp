@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "workflows/error_json.h"
 #include "workflows/level_choice.h"
 
 namespace workflows {
@@ -21,6 +22,7 @@ constexpr int kJsonFormat = 1;  // raised when a key changes its meaning
 constexpr std::size_t kDescriptorColumns = 4;
 
 std::string figure(double value) {
+  if (std::isnan(value)) return "-";  // not measured
   char text[32];
   std::snprintf(text, sizeof text, "%.4g", value);
   return text;
@@ -54,9 +56,10 @@ std::string joined(const std::vector<std::string>& words) {
 
 std::vector<std::string> level_names(const ShapeSummary& shape) {
   std::vector<std::string> names;
-  for (const auto& level : shape.levels) {
-    const std::string name = std::to_string(level.parts_asked);
-    if (names.empty() || names.back() != name) names.push_back(name);
+  for (const Level& level : shape.levels) {
+    const bool is_usual = level.key.mode == catalog::FitMode::volume_true;
+    const std::string name = std::to_string(level.key.parts_asked) + (is_usual ? "" : "-" + mode_name(level.key.mode));
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   }
   return names;
 }
@@ -79,24 +82,16 @@ std::vector<std::string> columns_for(const std::vector<ShapeSummary>& shapes) {
   return chosen;
 }
 
-Json error_json(const catalog::DecompositionError& error) {
-  return {{"symmetric_difference", error.symmetric_difference},
-          {"missing_volume", error.missing_volume},
-          {"volume_error", error.volume_error},
-          {"surface_mean", error.surface_mean},
-          {"surface_max", error.surface_max},
-          {"overlap", error.overlap},
-          {"method_error", error.method_error}};
-}
-
 Json levels_json(const ShapeSummary& shape) {
   Json levels = Json::array();
   const std::vector<bool> front = on_front(shape.levels);
   std::size_t k = 0;
   for (const Level& level : shape.levels)
-    levels.push_back({{"parts_asked", level.parts_asked},
+    levels.push_back({{"mode", mode_name(level.key.mode)},
+                      {"parts_asked", level.key.parts_asked},
                       {"parts", level.parts},
-                      {"vertex_cap", level.vertex_cap},
+                      {"vertex_cap", level.key.vertex_cap},
+                      {"face_cap", level.key.face_cap},
                       {"vertices", level.vertices},
                       {"faces", level.faces},
                       {"contact_cost", contact_cost(level)},
@@ -110,22 +105,37 @@ std::string finished(const char* key, Json value) {
   return object.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+Row key_cells(const Level& level) {
+  return {"  " + std::to_string(level.key.parts_asked), std::to_string(level.key.vertex_cap),
+          level.key.face_cap > 0 ? std::to_string(level.key.face_cap) : "-", mode_name(level.key.mode)};
+}
+
 std::string levels_table(const ShapeSummary& summary) {
-  std::vector<Row> rows{{"  parts", "cap", "kept", "faces", "cost", "front", "sym.difference", "missing", "volume",
-                         "surface mean", "surface max", "overlap", "+-"}};
+  std::vector<Row> rows{{"  parts", "vertices<=", "faces<=", "mode", "kept", "faces", "cost", "front", "sym.difference",
+                         "+-", "missing", "volume", "centre", "inertia", "convexity", "overlap"}};
   const std::vector<bool> front = on_front(summary.levels);
   for (std::size_t k = 0; k < summary.levels.size(); ++k) {
     const Level& level = summary.levels[k];
     const catalog::DecompositionError& error = level.error;
-    Row row{"  " + std::to_string(level.parts_asked),
-            std::to_string(level.vertex_cap),
-            std::to_string(level.parts),
-            std::to_string(level.faces),
-            figure(contact_cost(level)),
-            front[k] ? "*" : "-"};
-    for (const double value : {error.symmetric_difference, error.missing_volume, error.volume_error, error.surface_mean,
-                               error.surface_max, error.overlap, error.method_error})
+    Row row = key_cells(level);
+    row.insert(row.end(), {std::to_string(level.parts), std::to_string(level.faces), figure(contact_cost(level)),
+                           front[k] ? "*" : "-"});
+    for (const double value : {error.symmetric_difference, error.method_error, error.missing_volume, error.volume_error,
+                               error.centre_error, error.inertia_error, error.convexity_error, error.overlap})
       row.push_back(figure(value));
+    rows.push_back(row);
+  }
+  return table(rows);
+}
+
+std::string surfaces_table(const ShapeSummary& summary) {
+  std::vector<Row> rows{{"  parts", "vertices<=", "faces<=", "mode", "mean", "95 %", "max", "from mesh: mean", "95 %",
+                         "max", "from parts: mean", "95 %", "max"}};
+  for (const Level& level : summary.levels) {
+    Row row = key_cells(level);
+    for (const catalog::SurfaceDistance& surface :
+         {level.error.surface, level.error.surface_from_mesh, level.error.surface_from_union})
+      for (const double value : {surface.mean, surface.percentile_95, surface.largest}) row.push_back(figure(value));
     rows.push_back(row);
   }
   return table(rows);
@@ -197,7 +207,10 @@ std::string show_text(const catalog::ShapeRecord& shape, const ShapeSummary& sum
   text += shape.descriptors.empty() ? "  none\n" : table(rows);
 
   text += "levels of detail (volumes over the mesh's volume, distances over its bounding-box diagonal)\n";
-  text += summary.levels.empty() ? "  none; run talus decompose\n" : levels_table(summary);
+  if (summary.levels.empty()) return text + "  none; run talus decompose\n";
+  text += levels_table(summary);
+  text += "distances between the surfaces (both ways, from points of the mesh, from points of the parts)\n";
+  text += surfaces_table(summary);
   return text;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "catalog/input_error.h"
 #include "catalog/nearest_word.h"
@@ -32,6 +33,8 @@ struct CatalogOptions {
   std::string stl, ply, off;  // export
   int level = 0;              // export: parts asked; 0 for the mesh
   int vertex_cap = 0;         // export: 0 for the largest there is
+  int face_cap = 0;           // export: 0 for a level without one
+  catalog::FitMode mode = catalog::FitMode::volume_true;
   bool json = false;
 };
 
@@ -79,6 +82,12 @@ void declare_options(CLI::App& app, CatalogOptions& options) {
       ->check(CLI::Range(1, 1000000));
   write->add_option("--vertex-cap", options.vertex_cap, "of the level; the largest if not given")
       ->check(CLI::Range(1, 1000000));
+  write->add_option("--face-cap", options.face_cap, "of the level; one without a cap if not given")
+      ->check(CLI::Range(0, 1000000));
+  std::map<std::string, catalog::FitMode> modes;
+  for (const std::string& name : catalog::mode_names()) modes[name] = *catalog::mode_named(name);
+  write->add_option("--mode", options.mode, "of the level; volume-true if not given")
+      ->transform(CLI::CheckedTransformer(modes));
   action("rejected", "Example: talus catalog rejected ore.talus\nInputs that could not be used, with the reason.");
 }
 
@@ -132,31 +141,35 @@ std::vector<ShapeSummary> sampled(const ShapeCatalog& catalog, const CatalogOpti
   return drawn;
 }
 
-/// The largest vertex cap that the shape has for a number of parts.
-int largest_cap(const ShapeSummary& shape, int parts_asked) {
-  int cap = 0;
+/// The level asked for; without a cap of vertices the one with the largest that the shape has.
+catalog::LevelKey level_key(const ShapeSummary& shape, const CatalogOptions& options) {
+  catalog::LevelKey key{options.level, options.vertex_cap, options.face_cap, options.mode};
+  if (key.vertex_cap > 0) return key;
   std::string kept;
   for (const auto& level : shape.levels) {
-    if (level.parts_asked == parts_asked) cap = std::max(cap, level.vertex_cap);
-    kept += " " + std::to_string(level.parts_asked);
+    if (level.key.parts_asked == key.parts_asked && level.key.face_cap == key.face_cap && level.key.mode == key.mode)
+      key.vertex_cap = std::max(key.vertex_cap, level.key.vertex_cap);
+    kept += (kept.empty() ? "" : "; ") + described(level.key);
   }
-  if (cap == 0)
-    throw InputError("--level " + std::to_string(parts_asked) + ": " + shape.name + " has no such level; " +
-                     (kept.empty() ? "it has none, run talus decompose first" : "it has" + kept));
-  return cap;
+  if (key.vertex_cap == 0)
+    throw InputError("--level " + std::to_string(options.level) + ": " + shape.name + " has no such level; " +
+                     (kept.empty() ? "it has none, run talus decompose first" : "it has " + kept));
+  return key;
 }
 
 ExportMesh export_mesh(const ShapeCatalog& catalog, const CatalogOptions& options) {
   const ShapeId id = id_of(catalog, options);
   if (options.level == 0) return {catalog.shape(id).mesh, {}};
-  const int cap = options.vertex_cap > 0 ? options.vertex_cap : largest_cap(catalog.summary(id), options.level);
-  return joined(catalog.level(id, options.level, cap).parts);
+  return joined(catalog.level(id, level_key(catalog.summary(id), options)).parts);
 }
 
 void export_files(const ShapeCatalog& catalog, const CatalogOptions& options) {
   if (options.stl.empty() && options.ply.empty() && options.off.empty())
     throw catalog::UsageError("export needs a file: --stl FILE, --ply FILE or --off FILE");
-  if (options.vertex_cap != 0 && options.level == 0) throw catalog::UsageError("--vertex-cap goes with --level");
+  const bool has_limits =
+      options.vertex_cap != 0 || options.face_cap != 0 || options.mode != catalog::FitMode::volume_true;
+  if (has_limits && options.level == 0)
+    throw catalog::UsageError("--vertex-cap, --face-cap and --mode go with --level");
   const ExportMesh shape = export_mesh(catalog, options);
   if (!options.stl.empty()) write_file(options.stl, stl_bytes(shape));
   if (!options.ply.empty()) write_file(options.ply, ply_bytes(shape));

@@ -50,9 +50,8 @@ void declare_options(CLI::App& app, CommandLine& line) {
   app.add_option("--faces", quality.face_cap,
                  "most faces a part, faces in one plane counted as one, 8 to 124; 0: no cap")
       ->check(CLI::Range(8, 124) | CLI::IsMember({0}));
-  const std::map<std::string, decomposition::FitMode> modes{{"volume-true", decomposition::FitMode::volume_true},
-                                                            {"enclosing", decomposition::FitMode::enclosing},
-                                                            {"inscribed", decomposition::FitMode::inscribed}};
+  std::map<std::string, catalog::FitMode> modes;
+  for (const std::string& name : catalog::mode_names()) modes[name] = *catalog::mode_named(name);
   app.add_option("--mode", quality.mode, "volume-true (the mesh's volume), enclosing (nothing missing), inscribed")
       ->transform(CLI::CheckedTransformer(modes));
   const std::map<std::string, decomposition::SeparateBodies> bodies{{"join", decomposition::SeparateBodies::join},

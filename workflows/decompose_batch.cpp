@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 #include <utility>
 
 #include "catalog/input_error.h"
+#include "workflows/error_json.h"
 #include "workflows/in_order.h"
 #include "workflows/stage_tool.h"
 
@@ -38,17 +40,18 @@ bool is_current(const catalog::Provenance& stored, const std::string& hash,
          kept["options"] == Json::parse(decomposition::options_json(options));
 }
 
-/// The level as stored if it need not be made again.
+/// The level as stored if it need not be made again. One that came from an older schema lacks errors, so it is.
 std::optional<LevelOfDetail> kept_level(const catalog::ShapeCatalog& shapes, catalog::ShapeId id,
                                         const std::string& hash, decomposition::DecompositionOptions options,
                                         int parts) {
   options.parts = parts;
+  const catalog::LevelKey key{parts, options.vertex_cap, options.face_cap, options.mode};
   const catalog::ShapeSummary summary = shapes.summary(id);
   const bool is_there = std::any_of(summary.levels.begin(), summary.levels.end(), [&](const auto& level) {
-    return level.parts_asked == parts && level.vertex_cap == options.vertex_cap;
+    return level.key == key && !std::isnan(level.error.convexity_error);
   });
   if (!is_there) return std::nullopt;
-  LevelOfDetail level = shapes.level(id, parts, options.vertex_cap);
+  LevelOfDetail level = shapes.level(id, key);
   if (!is_current(level.provenance, hash, options)) return std::nullopt;
   return level;
 }
@@ -207,16 +210,18 @@ std::string batch_text(const DecomposeBatchResult& result) {
   for (const DecomposedLevel& row : result.levels) width = std::max(width, row.shape.size());
   std::string text =
       padded("shape", width) +
-      "  asked    cap  parts  vertices  faces  difference_%  +-     volume_%  surface_mean_%  surface_max_%  "
-      "seconds\n";
+      "  asked    cap  parts  vertices  faces  difference_%  +-     missing_%  volume_%  surface_mean_%  surface_95_%"
+      "  surface_max_%  seconds\n";
   for (const DecomposedLevel& row : result.levels) {
     const decomposition::LevelFigures figures = decomposition::figures(row.level.parts);
     const catalog::DecompositionError& error = row.level.error;
-    char line[200];
-    std::snprintf(line, sizeof line, "  %5d  %5d  %5zu  %8d  %5d  %12.3f  %5.3f  %8.4f  %14.3f  %13.3f  ",
-                  row.level.parts_asked, row.level.vertex_cap, row.level.parts.size(), figures.vertices, figures.faces,
-                  100 * error.symmetric_difference, 100 * error.method_error, 100 * error.volume_error,
-                  100 * error.surface_mean, 100 * error.surface_max);
+    char line[256];
+    std::snprintf(line, sizeof line,
+                  "  %5d  %5d  %5zu  %8d  %5d  %12.3f  %5.3f  %9.3f  %8.4f  %14.3f  %12.3f  %13.3f  ",
+                  row.level.key.parts_asked, row.level.key.vertex_cap, row.level.parts.size(), figures.vertices,
+                  figures.faces, 100 * error.symmetric_difference, 100 * error.method_error, 100 * error.missing_volume,
+                  100 * error.volume_error, 100 * error.surface.mean, 100 * error.surface.percentile_95,
+                  100 * error.surface.largest);
     char seconds[32];
     std::snprintf(seconds, sizeof seconds, "%7.2f", row.seconds);
     text += padded(row.shape, width) + line + (row.is_new ? seconds : "   kept") + "\n";
@@ -228,22 +233,18 @@ std::string batch_json(const DecomposeBatchResult& result) {
   Json levels = Json::array(), failures = Json::array();
   for (const DecomposedLevel& row : result.levels) {
     const decomposition::LevelFigures figures = decomposition::figures(row.level.parts);
-    const catalog::DecompositionError& error = row.level.error;
-    levels.push_back({{"shape", row.shape},
-                      {"parts_asked", row.level.parts_asked},
-                      {"parts", row.level.parts.size()},
-                      {"vertex_cap", row.level.vertex_cap},
-                      {"vertices", figures.vertices},
-                      {"faces", figures.faces},
-                      {"symmetric_difference", error.symmetric_difference},
-                      {"method_error", error.method_error},
-                      {"missing_volume", error.missing_volume},
-                      {"volume_error", error.volume_error},
-                      {"surface_mean", error.surface_mean},
-                      {"surface_max", error.surface_max},
-                      {"overlap", error.overlap},
-                      {"new", row.is_new},
-                      {"seconds", row.seconds}});
+    Json level{{"shape", row.shape},
+               {"mode", mode_name(row.level.key.mode)},
+               {"parts_asked", row.level.key.parts_asked},
+               {"parts", row.level.parts.size()},
+               {"vertex_cap", row.level.key.vertex_cap},
+               {"face_cap", row.level.key.face_cap},
+               {"vertices", figures.vertices},
+               {"faces", figures.faces}};
+    level.update(error_json(row.level.error));
+    level["new"] = row.is_new;
+    level["seconds"] = row.seconds;
+    levels.push_back(std::move(level));
   }
   for (const auto& failure : result.failures)
     failures.push_back({{"shape", failure.shape}, {"reason", failure.reason}});

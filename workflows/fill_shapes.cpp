@@ -10,7 +10,6 @@
 
 #include "catalog/input_error.h"
 #include "catalog/shape_catalog.h"
-#include "workflows/level_choice.h"
 #include "workflows/plain_name.h"
 #include "workflows/scene_place.h"
 
@@ -21,64 +20,86 @@ std::string catalogue_command(const char* action, const std::filesystem::path& c
   return "talus " + std::string(action) + " " + catalogue.string();
 }
 
-/// Levels that the engine can hold.
-std::vector<Level> usable_levels(const catalog::ShapeSummary& shape) {
-  std::vector<Level> levels;
-  for (const Level& level : shape.levels)
-    if (level.vertex_cap <= dem_gpu::kMaxPartVertices) levels.push_back(level);
+/// Levels that the engine can hold, of the mode and caps asked for.
+std::vector<Level> usable_levels(const catalog::ShapeSummary& shape, const LevelFilter& filter) {
+  std::vector<Level> levels = filter(shape.levels);
+  std::erase_if(levels, [](const Level& level) { return level.key.vertex_cap > dem_gpu::kMaxPartVertices; });
   return levels;
 }
 
-/// Level for the number of parts asked for; refuses one that is not there.
+std::string listed(const std::set<int>& numbers) {
+  std::string list;
+  for (const int number : numbers) list += (list.empty() ? "" : ", ") + std::to_string(number);
+  return list.empty() ? "none" : list;
+}
+
+/// What a level is asked to be beside its number of parts: " of at most 16 vertices and 34 faces, enclosing".
+std::string limits_text(const LevelFilter& filter) {
+  std::string text, joint = " of at most ";
+  for (const auto& [cap, things] : {std::pair{filter.vertex_cap, " vertices"}, {filter.face_cap, " faces"}}) {
+    if (cap.value_or(0) == 0) continue;
+    text += joint + std::to_string(*cap) + things;
+    joint = " and ";
+  }
+  return filter.mode == catalog::FitMode::volume_true ? text : text + ", " + mode_name(filter.mode);
+}
+
+/// The command that makes a level of that kind.
+std::string making(const CatalogueShapes& asked, int parts) {
+  std::string command = catalogue_command("decompose", asked.catalogue) + " --parts " + std::to_string(parts);
+  if (asked.levels.vertex_cap) command += " --vertices " + std::to_string(*asked.levels.vertex_cap);
+  if (asked.levels.face_cap.value_or(0) > 0) command += " --faces " + std::to_string(*asked.levels.face_cap);
+  if (asked.levels.mode != catalog::FitMode::volume_true) command += " --mode " + mode_name(asked.levels.mode);
+  return command;
+}
+
+/// Level for the number of parts asked for, without a cap of faces unless asked for; refuses one that is not there.
 Level level_of_parts(const catalog::ShapeSummary& shape, const FillDescription& fill, const CatalogueShapes& asked) {
-  std::set<int> caps, levels;
-  for (const Level& level : shape.levels) levels.insert(level.parts_asked);
-  for (const Level& level : usable_levels(shape))
-    if (level.parts_asked == *asked.parts) caps.insert(level.vertex_cap);
-  const auto listed = [](const std::set<int>& numbers) {
-    std::string list;
-    for (const int number : numbers) list += (list.empty() ? "" : ", ") + std::to_string(number);
-    return list.empty() ? std::string("none") : list;
-  };
-  const std::string parts = std::to_string(*asked.parts);
+  LevelFilter filter = asked.levels;
+  filter.vertex_cap.reset();
+  filter.face_cap = asked.levels.face_cap.value_or(0);
+  const std::vector<Level> levels = usable_levels(shape, filter);
+  std::set<int> caps, counts;
+  for (const Level& level : levels) {
+    counts.insert(level.key.parts_asked);
+    if (level.key.parts_asked == *asked.parts) caps.insert(level.key.vertex_cap);
+  }
+  const std::string parts = std::to_string(*asked.parts), make_it = "make it with: " + making(asked, *asked.parts);
   if (caps.empty())
-    throw catalog::InputError(
-        fill.place + ": shape '" + shape.name + "' has no level of " + parts + " parts (it has: " + listed(levels) +
-        "); make it with: " + catalogue_command("decompose", asked.catalogue) + " --parts " + parts);
-  if (asked.vertex_cap && !caps.contains(*asked.vertex_cap))
-    throw catalog::InputError(
-        fill.place + ": shape '" + shape.name + "' has " + parts + " parts with at most " + listed(caps) +
-        " vertices, not " + std::to_string(*asked.vertex_cap) +
-        "; take one of these, or make it with: " + catalogue_command("decompose", asked.catalogue) + " --parts " +
-        parts + " --vertices " + std::to_string(*asked.vertex_cap));
+    throw catalog::InputError(fill.place + ": shape '" + shape.name + "' has no level of " + parts + " parts" +
+                              limits_text(filter) + " (it has: " + listed(counts) + "); " + make_it);
+  if (asked.levels.vertex_cap && !caps.contains(*asked.levels.vertex_cap))
+    throw catalog::InputError(fill.place + ": shape '" + shape.name + "' has " + parts + " parts with at most " +
+                              listed(caps) + " vertices, not " + std::to_string(*asked.levels.vertex_cap) +
+                              "; take one of these, or " + make_it);
   const int usual = *std::min_element(caps.begin(), caps.end(), [](int a, int b) {
     return std::abs(a - kUsualVertexCap) < std::abs(b - kUsualVertexCap);
   });
-  const int cap = asked.vertex_cap.value_or(usual);
-  return *std::find_if(shape.levels.begin(), shape.levels.end(), [&](const Level& level) {
-    return level.parts_asked == *asked.parts && level.vertex_cap == cap;
+  const int cap = asked.levels.vertex_cap.value_or(usual);
+  return *std::find_if(levels.begin(), levels.end(), [&](const Level& level) {
+    return level.key.parts_asked == *asked.parts && level.key.vertex_cap == cap;
   });
 }
 
 /// The cheapest level within the tolerance asked for; refuses a shape that has none.
 Level level_within(const catalog::ShapeSummary& shape, const FillDescription& fill, const CatalogueShapes& asked) {
-  const std::vector<Level> levels = usable_levels(shape);
-  if (const auto level = cheapest_level(levels, *asked.tolerance, asked.vertex_cap)) return *level;
-  std::optional<Level> best;
-  for (const Level& level : levels)
-    if ((!asked.vertex_cap || level.vertex_cap == *asked.vertex_cap) &&
-        (!best || level.error.symmetric_difference < best->error.symmetric_difference))
-      best = level;
-  char tolerance[32], text[160] = "it has no level";
-  std::snprintf(tolerance, sizeof tolerance, "%.4g %%", 100 * *asked.tolerance);
-  if (best)
-    std::snprintf(text, sizeof text, "its best, %d parts of at most %d vertices, is off by %.4g %%", best->parts_asked,
-                  best->vertex_cap, 100 * best->error.symmetric_difference);
-  const std::string vertices = asked.vertex_cap ? " of at most " + std::to_string(*asked.vertex_cap) + " vertices" : "";
+  const std::vector<Level> levels = usable_levels(shape, asked.levels);
+  if (const auto level = cheapest_level(levels, *asked.tolerance)) return *level;
+  const auto best = std::min_element(levels.begin(), levels.end(), [](const Level& a, const Level& b) {
+    return a.error.symmetric_difference < b.error.symmetric_difference;
+  });
+  const auto percent = [](double share) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g %%", 100 * share);
+    return std::string(text);
+  };
+  const std::string known = best == levels.end() ? "it has no level"
+                                                 : "its best, " + described(best->key) + ", is off by " +
+                                                       percent(best->error.symmetric_difference);
   throw catalog::InputError(
-      fill.place + ": shape '" + shape.name + "' has no level" + vertices + " within tolerance = " + tolerance + " (" +
-      text + "); allow more, or make finer ones with: " + catalogue_command("decompose", asked.catalogue) +
-      " --parts " + std::to_string(best ? 2 * best->parts_asked : 8));
+      fill.place + ": shape '" + shape.name + "' has no level" + limits_text(asked.levels) +
+      " within tolerance = " + percent(*asked.tolerance) + " (" + known +
+      "); allow more, or make finer ones with: " + making(asked, best == levels.end() ? 8 : 2 * best->key.parts_asked));
 }
 
 /// 0 if the catalogue has none.
@@ -185,10 +206,9 @@ std::vector<ShapeCollector::Collected> ShapeCollector::selected(const FillDescri
       throw catalog::InputError(fill.place + ": a shape of " + path + " is named " + shown_name(summary.name) + "; " +
                                 kPlainName);
     const Level chosen = shapes.tolerance ? level_within(summary, fill, shapes) : level_of_parts(summary, fill, shapes);
-    const std::string key = path + "\n" + summary.name + "\n" + std::to_string(chosen.parts_asked) + "\n" +
-                            std::to_string(chosen.vertex_cap);
+    const std::string key = path + "\n" + summary.name + "\n" + described(chosen.key);
     if (!collected_.contains(key)) {
-      const catalog::LevelOfDetail level = catalogue.level(id, chosen.parts_asked, chosen.vertex_cap);
+      const catalog::LevelOfDetail level = catalogue.level(id, chosen.key);
       Collected collected =
           add(decomposed(summary.name, level.parts), {.name = summary.name,
                                                       .symmetric_difference = level.error.symmetric_difference,

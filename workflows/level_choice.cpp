@@ -7,11 +7,21 @@
 
 namespace workflows {
 
+std::vector<Level> LevelFilter::operator()(const std::vector<Level>& levels) const {
+  std::vector<Level> kept;
+  for (const Level& level : levels)
+    if (level.key.mode == mode && level.key.vertex_cap == vertex_cap.value_or(level.key.vertex_cap) &&
+        level.key.face_cap == face_cap.value_or(level.key.face_cap))
+      kept.push_back(level);
+  return kept;
+}
+
 double contact_cost(const Level& level) { return dem_gpu::contact_cost(level.parts, level.faces); }
 
 std::vector<bool> on_front(const std::vector<Level>& levels) {
   const auto error = [](const Level& level) { return level.error.symmetric_difference; };
   const auto is_beaten_by = [&](const Level& level, const Level& other) {
+    if (other.key.mode != level.key.mode) return false;
     const double cost = contact_cost(level), other_cost = contact_cost(other);
     return other_cost <= cost && error(other) <= error(level) && (other_cost < cost || error(other) < error(level));
   };
@@ -22,10 +32,9 @@ std::vector<bool> on_front(const std::vector<Level>& levels) {
   return front;
 }
 
-std::optional<Level> cheapest_level(const std::vector<Level>& levels, double tolerance, std::optional<int> vertex_cap) {
+std::optional<Level> cheapest_level(const std::vector<Level>& levels, double tolerance) {
   std::optional<Level> cheapest;
   for (const Level& level : levels) {
-    if (vertex_cap && level.vertex_cap != *vertex_cap) continue;
     if (!(level.error.symmetric_difference <= tolerance)) continue;
     if (!cheapest || contact_cost(level) < contact_cost(*cheapest)) cheapest = level;
   }

@@ -147,7 +147,9 @@ Json fill_summary(const FillReport& report, const FillDescription& fill, const S
     json["select"] = shapes->query;
     if (shapes->parts) json["parts"] = *shapes->parts;
     if (shapes->tolerance) json["tolerance"] = *shapes->tolerance;
-    json["vertices"] = shapes->vertex_cap ? Json(*shapes->vertex_cap) : Json(nullptr);
+    json["mode"] = mode_name(shapes->levels.mode);
+    json["vertices"] = shapes->levels.vertex_cap ? Json(*shapes->levels.vertex_cap) : Json(nullptr);
+    json["faces"] = shapes->levels.face_cap ? Json(*shapes->levels.face_cap) : Json(nullptr);
   }
   json["material"] = scene.materials[static_cast<std::size_t>(fill.material)].name;
   json["first_body"] = report.first_body;

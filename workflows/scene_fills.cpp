@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::int64_t kMostBodies = 5'000'000;
 constexpr int kMostParts = 1024;
+// Faces of a simplicial part with as many vertices as a part may have.
+constexpr int kMostFaces = 2 * dem_gpu::kMaxPartVertices - 4;
 // Of a ring: the depth field of as many takes 15 s to set up, of twice as many a minute.
 constexpr int kMostRingFaces = 5000;
 // Tables of passing must end at 100 % within this share.
@@ -146,7 +148,10 @@ CatalogueShapes read_catalogue_shapes(TomlTable& table, const std::filesystem::p
     shapes.parts = static_cast<int>(table.integer("parts", 1, kMostParts));
   }
   if (table.has("vertices"))
-    shapes.vertex_cap = static_cast<int>(table.integer("vertices", 4, dem_gpu::kMaxPartVertices));
+    shapes.levels.vertex_cap = static_cast<int>(table.integer("vertices", 4, dem_gpu::kMaxPartVertices));
+  if (table.has("faces")) shapes.levels.face_cap = static_cast<int>(table.integer("faces", 0, kMostFaces));
+  if (table.has("mode"))
+    shapes.levels.mode = static_cast<catalog::FitMode>(table.choice("mode", catalog::mode_names()));
   return shapes;
 }
 

@@ -12,6 +12,7 @@
 #include "dem_gpu/scene.h"
 #include "workflows/chain.h"
 #include "workflows/fill.h"
+#include "workflows/level_choice.h"
 #include "workflows/ring_shape.h"
 #include "workflows/size_distribution.h"
 
@@ -23,8 +24,10 @@ struct CatalogueShapes {
   std::string query;                // see catalog::ShapeCatalog::select
   std::optional<int> parts;         // parts asked for: 1, 2, 4, 8, ...; nullopt: by tolerance
   std::optional<double> tolerance;  // else: the cheapest level of at most this symmetric difference [-]
-  std::optional<int> vertex_cap;    // nullopt: the cap nearest to kUsualVertexCap that the catalogue has; by tolerance
-                                    // any
+  /// Those that come into question. Without a cap of vertices: by number of parts the one nearest to kUsualVertexCap
+  /// that the catalogue has, by tolerance any. Without one of faces: by number of parts levels that have none, by
+  /// tolerance any.
+  LevelFilter levels;
 };
 inline constexpr int kUsualVertexCap = 32;
 

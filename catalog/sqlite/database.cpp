@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catalog/sqlite/database.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace catalog::sqlite {
@@ -35,7 +36,8 @@ void Database::copy_from(const Database& source) const {
 
 void Database::fail(int result) const {
   const std::string file = path_.string();
-  const std::string said = handle() ? sqlite3_errmsg(handle()) : sqlite3_errstr(result);
+  std::string said = handle() ? sqlite3_errmsg(handle()) : sqlite3_errstr(result);
+  std::replace(said.begin(), said.end(), '\n', ' ');  // it may quote the file's own SQL
   if (result == SQLITE_READONLY_ROLLBACK || result == SQLITE_READONLY_RECOVERY)
     throw NeedsRollback(file +
                         ": its last write was cut off and must be undone; expected write permission for the file "

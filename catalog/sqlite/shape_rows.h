@@ -10,11 +10,9 @@ namespace catalog::sqlite {
 
 /// Replaces the shape of that name, keeping its id, and drops its levels.
 ShapeId write_shape(const Database& database, const ShapeRecord& shape);
-void write_level(const Database& database, ShapeId id, const LevelOfDetail& level);
 
 ShapeRecord read_shape(const Database& database, ShapeId id);
 ShapeSummary read_summary(const Database& database, ShapeId id);
-LevelOfDetail read_level(const Database& database, ShapeId id, int parts_asked, int vertex_cap);
 
 /// Names of all descriptors that any shape has, ascending.
 std::vector<std::string> descriptor_names(const Database& database);

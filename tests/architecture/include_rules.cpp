@@ -17,7 +17,7 @@ using Names = std::set<std::string>;
 const Names kModules{"catalog", "shape_pipeline", "decomposition", "dem_gpu", "postprocess", "workflows"};
 
 // The part of a module's public headers that hold types only: no database, no engine.
-const Names kCatalogTypes{"input_error.h",     "triangle_mesh.h", "convex_part.h",
+const Names kCatalogTypes{"input_error.h",     "triangle_mesh.h", "convex_part.h", "fit_mode.h",
                           "mass_properties.h", "shape_record.h",  "nearest_word.h"};
 const Names kEngineTypes{"scene.h", "snapshot.h"};
 

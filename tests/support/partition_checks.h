@@ -130,11 +130,11 @@ inline bool have_gap(const catalog::ConvexPart& a, const catalog::ConvexPart& b)
 
 /// Sound parts, every pair separated by a face plane or a gap, without any tolerance, so that no two parts overlap.
 inline void expect_partition(const catalog::LevelOfDetail& level) {
-  EXPECT_LE(level.parts.size(), static_cast<std::size_t>(level.parts_asked));
+  EXPECT_LE(level.parts.size(), static_cast<std::size_t>(level.key.parts_asked));
   ASSERT_FALSE(level.parts.empty());
   std::vector<catalog::FacePlane> planes;
   for (const catalog::ConvexPart& part : level.parts) {
-    expect_sound_part(part, level.vertex_cap);
+    expect_sound_part(part, level.key.vertex_cap);
     for (const catalog::ConvexFace& face : part.faces) planes.push_back(face.plane);
   }
   for (std::size_t a = 0; a < level.parts.size(); ++a)

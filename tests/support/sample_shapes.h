@@ -53,12 +53,21 @@ inline catalog::ShapeRecord sample_shape(const std::string& name, double scale =
 /// Two touching halves of sample_shape's box; `vertex_cap` 64.
 inline catalog::LevelOfDetail sample_level(const catalog::ShapeRecord& shape, int parts_asked) {
   catalog::LevelOfDetail level;
-  level.parts_asked = parts_asked;
-  level.vertex_cap = 64;
+  level.key.parts_asked = parts_asked;
+  level.key.vertex_cap = 64;
   const catalog::Point low = shape.mesh.vertices.front(), high = shape.mesh.vertices.back();
   level.parts = {box_part(low, {0, high[1], high[2]}, true), box_part({0, low[1], low[2]}, high)};
   level.mass_properties = shape.mass_properties;
-  level.error = {1.0 / 7, 0.01, -0.003, 1e-3 / 3, 0.02, 0, 1e-5};
+  level.error = {.symmetric_difference = 1.0 / 7,
+                 .method_error = 1e-5,
+                 .missing_volume = 0.01,
+                 .volume_error = -0.003,
+                 .surface_from_mesh = {1e-3 / 7, 2e-3 / 3, 0.01},
+                 .surface_from_union = {1e-3 / 5, 3e-3, 0.02},
+                 .surface = {1e-3 / 3, 2e-3, 0.02},
+                 .centre_error = 4e-4,
+                 .inertia_error = 5e-3,
+                 .convexity_error = -0.06};
   level.provenance = {shape.name, std::string(64, 'b'), "talus 0.1.0", R"({"parts":[2]})"};
   return level;
 }

@@ -81,7 +81,7 @@ TEST(WholeChain, FromTwoScansToAReport) {
     ASSERT_EQ(shapes.size(), 2u);
     for (const catalog::ShapeId id : shapes) {
       const catalog::ShapeRecord shape = ore.shape(id);
-      const catalog::LevelOfDetail level = ore.level(id, 2, 16);
+      const catalog::LevelOfDetail level = ore.level(id, {2, 16});
       EXPECT_EQ(level.parts.size(), 2u);
       EXPECT_NEAR(level.mass_properties.volume / shape.mass_properties.volume, 1, 2e-3);
       EXPECT_LT(level.error.symmetric_difference, 0.2);

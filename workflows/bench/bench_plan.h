@@ -59,14 +59,26 @@ struct PlotAxes {
   bool is_linear = false;
 };
 
+/// A figure with where it comes from.
+struct ReportedFigure {
+  std::string bench;
+  std::string case_name;
+  Figure figure;
+  std::string command;  // what a reader types to get it alone
+};
+
 struct BenchPlan {
   std::vector<BenchCase> cases;
   std::vector<PlotAxes> plots;
+  /// Markdown of what was measured; empty: a table of all figures.
+  std::function<std::string(const std::vector<ReportedFigure>&)> page{};
 };
 
 struct BenchOptions {
   std::vector<int> threads;         // counts to compare, where a bench runs the engine's threads
   std::filesystem::path catalogue;  // of shapes, where a bench measures them
+  std::filesystem::path scans;      // folder of scans, where a bench measures them
+  int seeds = 5;                    // of searches, where a bench takes the median over them
 };
 
 }  // namespace workflows

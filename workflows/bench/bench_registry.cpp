@@ -11,6 +11,10 @@ const std::vector<Bench>& benches() {
       {"box", "200 elastic bodies in a closed room: energy and momentum over 1e5 collisions", plan_box_bench},
       {"bulk", "whole scenes: wall time against error of path, settled height and mill power", plan_bulk_bench},
       {"contact", "single impacts: wall time against error of restitution and contact time", plan_contact_bench},
+#ifdef TALUS_BENCH_DECOMPOSITION
+      {"decomposition", "convex parts of scans (--scans DIR) and a torus: error, rules, time, front of error and cost",
+       plan_decomposition_bench},
+#endif
       {"impacts", "sphere impacts of Chung & Ooi (2011), tests 1-8, beside exact and published values",
        plan_impacts_bench},
       {"laws", "contact laws: energy round closed paths, cuts into parts, stiffness exponents", plan_laws_bench},

@@ -8,14 +8,6 @@
 
 namespace workflows {
 
-/// A figure with where it comes from.
-struct ReportedFigure {
-  std::string bench;
-  std::string case_name;
-  Figure figure;
-  std::string command;  // what a reader types to get it alone
-};
-
 /// "<= 0.05"; empty without a goal.
 std::string goal_text(const Figure& figure);
 

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "workflows/bench/catalogue_levels.h"
 
-#include <cmath>
-#include <set>
+#include <algorithm>
 
 #include "catalog/input_error.h"
+#include "workflows/bench/level_cost.h"
 
 namespace workflows {
 
 dem_gpu::Shape ShapeLevels::unit_shape(const Level& level) const {
   const catalog::ShapeCatalog shapes(catalogue, catalog::ShapeCatalog::Access::read_only);
-  catalog::LevelOfDetail stored = shapes.level(shape.id, level.parts_asked, level.vertex_cap);
-  const double size = std::cbrt(stored.mass_properties.volume);
-  for (catalog::ConvexPart& part : stored.parts) {
-    for (catalog::Point& vertex : part.vertices)
-      for (double& x : vertex) x /= size;
-    for (catalog::ConvexFace& face : part.faces) face.plane.offset /= size;
-  }
-  return dem_gpu::polyhedral_shape(shape.name, stored.parts);
+  return workflows::unit_shape(shape.name, shapes.level(shape.id, level.key));
 }
 
-std::vector<int> ShapeLevels::vertex_caps() const {
-  std::set<int> caps;
-  for (const Level& level : shape.levels) caps.insert(level.vertex_cap);
-  return {caps.begin(), caps.end()};
+std::vector<std::pair<std::string, std::vector<Level>>> ShapeLevels::ladders() const {
+  std::vector<std::pair<std::string, std::vector<Level>>> all;
+  for (const Level& level : shape.levels) {
+    const std::string name = ladder_name(level.key);
+    const auto known = std::find_if(all.begin(), all.end(), [&](const auto& ladder) { return ladder.first == name; });
+    if (known == all.end())
+      all.push_back({name, {level}});
+    else
+      known->second.push_back(level);
+  }
+  return all;
 }
 
 std::vector<ShapeLevels> levels_of_catalogue(const std::filesystem::path& catalogue) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "catalog/shape_catalog.h"
@@ -15,10 +17,10 @@ struct ShapeLevels {
   std::filesystem::path catalogue;
   catalog::ShapeSummary shape;  // with its levels, at least one
 
-  /// The level as the engine sees it, at a volume of 1: lengths and depths are then shares of its size.
+  /// See unit_shape() of level_cost.h.
   dem_gpu::Shape unit_shape(const Level& level) const;
-  /// The vertex caps of its levels, ascending.
-  std::vector<int> vertex_caps() const;
+  /// Its levels by what they have in common beside the number of parts (see ladder_name()), the usual ones first.
+  std::vector<std::pair<std::string, std::vector<Level>>> ladders() const;
 };
 
 /// All shapes that have levels. Throws catalog::InputError if none has.

@@ -21,6 +21,16 @@ class CpuClock {
   double start_;
 };
 
+/// Time all threads of the process have worked since construction.
+class ProcessClock {
+ public:
+  ProcessClock() : start_(std::clock()) {}
+  double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
+
+ private:
+  std::clock_t start_;
+};
+
 /// Time on the wall since construction.
 class WallClock {
  public:

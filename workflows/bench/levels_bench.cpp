@@ -2,32 +2,24 @@
 // Levels of detail of a catalogue's shapes: error against what a contact of such bodies costs the engine.
 #include "catalog/input_error.h"
 #include "workflows/bench/bench_registry.h"
-#include "workflows/bench/bench_shapes.h"
 #include "workflows/bench/catalogue_levels.h"
-#include "workflows/bench/laws/laws_cases.h"
+#include "workflows/bench/level_cost.h"
 
 namespace workflows {
 namespace {
 
-const dem_gpu::PolyhedralLaw kLaw = dem_gpu::DepthPotential{1};
-
-/// All levels of one shape and one vertex cap.
-CaseResult measure_ladder(const ShapeLevels& levels, int cap) {
-  const dem_gpu::Shape cube = box_shape({1, 1, 1});
-  const double cube_time = time_per_pair(cube, cube, kLaw);
+CaseResult measure_ladder(const ShapeLevels& shape, const std::vector<Level>& ladder) {
   CaseResult result;
-  PlotCurve curve{"front", levels.shape.name + ", " + std::to_string(cap) + " vertices", {}, {}, {}};
-  for (const Level& level : levels.shape.levels) {
-    if (level.vertex_cap != cap) continue;
-    const dem_gpu::Shape body = levels.unit_shape(level);
-    const double cost = time_per_pair(body, body, kLaw) / cube_time;
-    const std::string parts = std::to_string(level.parts_asked) + " parts: ";
+  PlotCurve curve{"front", shape.shape.name + ", " + ladder_text(ladder.front().key), {}, {}, {}};
+  for (const Level& level : ladder) {
+    const double cost = measured_contact_cost(shape.unit_shape(level));
+    const std::string parts = std::to_string(level.key.parts_asked) + " parts: ";
     result.figures.push_back({parts + "symmetric difference", level.error.symmetric_difference, "-", {}, ""});
     result.figures.push_back({parts + "time of a contact over that of cubes", cost, "-", {}, ""});
     result.figures.push_back({parts + "contact_cost over that", contact_cost(level) / cost, "-", {}, ""});
     curve.x.push_back(cost);
     curve.y.push_back(level.error.symmetric_difference);
-    curve.point_names.push_back(std::to_string(level.parts_asked));
+    curve.point_names.push_back(std::to_string(level.key.parts_asked));
   }
   result.curves.push_back(std::move(curve));
   return result;
@@ -45,10 +37,10 @@ BenchPlan plan_levels_bench(const BenchOptions& options) {
                    }}};
     return plan;
   }
-  for (const ShapeLevels& levels : levels_of_catalogue(options.catalogue))
-    for (const int cap : levels.vertex_caps())
+  for (const ShapeLevels& shape : levels_of_catalogue(options.catalogue))
+    for (const auto& [name, ladder] : shape.ladders())
       plan.cases.push_back(
-          {levels.shape.name + "-" + std::to_string(cap), [levels, cap] { return measure_ladder(levels, cap); }});
+          {shape.shape.name + "-" + name, [shape, ladder = ladder] { return measure_ladder(shape, ladder); }});
   return plan;
 }
 

@@ -25,12 +25,17 @@ struct AxisRange {
   }
   double share(double value) const { return ((is_linear ? value : std::log10(value)) - low) / (high - low); }
 
-  /// Values to label, at most about eight; linear ones are 1, 2 or 5 times a power of ten apart.
+  /// Few powers of ten are divided at 2 and 5.
+  bool is_divided() const { return !is_linear && high - low <= 3; }
+
+  /// Values to label, at most about ten; linear ones are 1, 2 or 5 times a power of ten apart.
   std::vector<double> ticks() const {
     std::vector<double> values;
     if (!is_linear) {
-      for (double power = low; power <= high; power += std::max(1.0, std::ceil((high - low) / 8)))
+      for (double power = low; power <= high; power += std::max(1.0, std::ceil((high - low) / 8))) {
         values.push_back(std::pow(10, power));
+        if (is_divided() && power < high) values.insert(values.end(), {2 * values.back(), 5 * values.back()});
+      }
       return values;
     }
     const double decade = std::pow(10, std::floor(std::log10((high - low) / 8)));
@@ -84,7 +89,7 @@ struct Canvas {
       svg += format("<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#ddd\"/>\n", x1, y1, x2, y2);
     };
     const auto label = [](const AxisRange& range, double value) {
-      return range.is_linear ? format("%.3g", value) : format("1e%.0f", std::log10(value));
+      return range.is_linear || range.is_divided() ? format("%.3g", value) : format("1e%.0f", std::log10(value));
     };
     for (const double value : x.ticks()) {
       const double at = across(value);

@@ -7,6 +7,7 @@
 #include "catalog/input_error.h"
 #include "workflows/bench/bench_registry.h"
 #include "workflows/bench/catalogue_levels.h"
+#include "workflows/bench/level_cost.h"
 #include "workflows/bench/parts/rock_bed.h"
 #include "workflows/thread_count.h"
 
@@ -66,16 +67,15 @@ void add(CaseResult& result, const std::string& name, double value, const std::s
   result.figures.push_back(figure);
 }
 
-CaseResult measure_levels(const ShapeLevels& rock, int cap) {
+CaseResult measure_levels(const ShapeLevels& rock, const std::vector<Level>& ladder) {
   CaseResult result;
   const double reach = largest_reach(rock);
   std::vector<PlotCurve> curves;
   for (const char* plot : {"packing", "angle", "emptying", "left", "cost"})
-    curves.push_back({plot, rock.shape.name + ", " + std::to_string(cap) + " vertices", {}, {}, {}});
-  for (const Level& level : rock.shape.levels) {
-    if (level.vertex_cap != cap) continue;
+    curves.push_back({plot, rock.shape.name + ", " + ladder_text(ladder.front().key), {}, {}, {}});
+  for (const Level& level : ladder) {
     const Response response = respond(rock.unit_shape(level), reach, kSeed);
-    const std::string at = std::to_string(level.parts_asked) + " parts: ";
+    const std::string at = std::to_string(level.key.parts_asked) + " parts: ";
     add(result, at + "symmetric difference [-]", level.error.symmetric_difference, "");
     for (const auto& [name, value] : kAnswers) add(result, at + name, value(response), response.failure);
     add(result, at + "contacts a rock [-]", response.poured.contacts, response.failure);
@@ -87,7 +87,7 @@ CaseResult measure_levels(const ShapeLevels& rock, int cap) {
     for (std::size_t i = 0; i < curves.size(); ++i) {
       curves[i].x.push_back(100 * level.error.symmetric_difference);
       curves[i].y.push_back(response.failure.empty() ? y[i] : kFailedRun);
-      curves[i].point_names.push_back(std::to_string(level.parts_asked) + " parts");
+      curves[i].point_names.push_back(std::to_string(level.key.parts_asked) + " parts");
     }
   }
   result.curves = std::move(curves);
@@ -137,9 +137,9 @@ BenchPlan plan_parts_bench(const BenchOptions& options) {
   }
   if (!options.threads.empty()) set_thread_count(options.threads.front());
   for (const ShapeLevels& rock : levels_of_catalogue(options.catalogue)) {
-    for (const int cap : rock.vertex_caps())
+    for (const auto& [name, ladder] : rock.ladders())
       plan.cases.push_back(
-          {rock.shape.name + "-" + std::to_string(cap), [rock, cap] { return measure_levels(rock, cap); }});
+          {rock.shape.name + "-" + name, [rock, ladder = ladder] { return measure_levels(rock, ladder); }});
     plan.cases.push_back({rock.shape.name + "-spread", [rock] { return measure_spread(rock); }});
   }
   return plan;

@@ -44,7 +44,7 @@ void expect_whole(const ShapeCatalog& catalog) {
     EXPECT_EQ(shape.provenance.options, std::to_string(static_cast<int>(generation)));
     EXPECT_EQ(shape.checks.size(), 2u);
     if (catalog.summary(id).levels.empty()) continue;  // killed between its two stores
-    const LevelOfDetail level = catalog.level(id, 2, 64);
+    const LevelOfDetail level = catalog.level(id, {2, 64});
     EXPECT_EQ(level.error.overlap, generation);
     ASSERT_EQ(level.parts.size(), 2u);
     for (const ConvexPart& part : level.parts) EXPECT_EQ(part.vertices[0][0], generation);

@@ -114,18 +114,49 @@ TEST(RoundTrip, LevelComesBackBitForBit) {
   level.parts[1].faces[3].plane = {{-0.0, 1.0 / 3, 5e-324}, -1.0 / 7};
   catalog.store_levels(id, {level, sample_level(shape, 8)});
 
-  const LevelOfDetail back = catalog.level(id, 2, 64);
+  const LevelOfDetail back = catalog.level(id, {2, 64});
   ASSERT_EQ(back.parts.size(), 2u);
   for (int p = 0; p < 2; ++p) expect_same(back.parts[p], level.parts[p]);
   expect_same(back.mass_properties, level.mass_properties);
   expect_same(back.provenance, level.provenance);
-  EXPECT_EQ(back.error.symmetric_difference, level.error.symmetric_difference);
-  EXPECT_EQ(back.error.missing_volume, level.error.missing_volume);
-  EXPECT_EQ(back.error.volume_error, level.error.volume_error);
-  EXPECT_EQ(back.error.surface_mean, level.error.surface_mean);
-  EXPECT_EQ(back.error.surface_max, level.error.surface_max);
-  EXPECT_EQ(back.error.overlap, level.error.overlap);
-  EXPECT_EQ(back.error.method_error, level.error.method_error);
+  EXPECT_EQ(back.error, level.error);
+}
+
+TEST(RoundTrip, LevelsOfOtherModesAndCapsStandBesideOneAnother) {
+  const TemporaryFolder folder;
+  ShapeCatalog catalog(folder / "ore.talus", Access::read_write);
+  const ShapeRecord shape = sample_shape("rock");
+  const ShapeId id = catalog.store_shape(shape);
+  std::vector<LevelOfDetail> levels;
+  double mark = 0;
+  for (const FitMode mode : {FitMode::inscribed, FitMode::enclosing, FitMode::volume_true})
+    for (const int face_cap : {34, 0})
+      for (const int vertex_cap : {64, 16}) {
+        levels.push_back(sample_level(shape, 2));
+        levels.back().key = {2, vertex_cap, face_cap, mode};
+        levels.back().error.symmetric_difference = mark += 1;
+      }
+  catalog.store_levels(id, levels);
+  for (const LevelOfDetail& level : levels) EXPECT_EQ(catalog.level(id, level.key).error, level.error);
+  const ShapeSummary summary = catalog.summary(id);
+  ASSERT_EQ(summary.levels.size(), levels.size());
+  EXPECT_EQ(summary.levels[0].key, (LevelKey{2, 16, 0, FitMode::volume_true})) << "the usual ones first";
+  EXPECT_EQ(summary.levels[1].key, (LevelKey{2, 16, 34, FitMode::volume_true}));
+  LevelOfDetail again = levels[3];
+  again.error.symmetric_difference = 100;
+  catalog.store_levels(id, {again});
+  EXPECT_EQ(catalog.summary(id).levels.size(), levels.size()) << "the same key takes the same place";
+  EXPECT_EQ(catalog.level(id, again.key).error.symmetric_difference, 100);
+  try {
+    catalog.level(id, {3, 16, 24, FitMode::enclosing});
+    FAIL() << "a level that is not there";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    EXPECT_NE(text.find("no level of 3 parts of at most 16 vertices and 24 faces, enclosing; kept: 2 parts of at most "
+                        "16 vertices; "),
+              std::string::npos)
+        << text;
+  }
 }
 
 TEST(RoundTrip, SummaryHoldsLevelsInOrderAndFailedChecks) {
@@ -141,9 +172,9 @@ TEST(RoundTrip, SummaryHoldsLevelsInOrderAndFailedChecks) {
   EXPECT_EQ(summary.descriptors, shape.descriptors);
   EXPECT_EQ(summary.failed_checks, std::vector<std::string>{"volume_second_method"});
   ASSERT_EQ(summary.levels.size(), 3u);
-  EXPECT_EQ(summary.levels[0].parts_asked, 1);
-  EXPECT_EQ(summary.levels[1].parts_asked, 4);
-  EXPECT_EQ(summary.levels[2].parts_asked, 8);
+  EXPECT_EQ(summary.levels[0].key.parts_asked, 1);
+  EXPECT_EQ(summary.levels[1].key.parts_asked, 4);
+  EXPECT_EQ(summary.levels[2].key.parts_asked, 8);
   EXPECT_EQ(summary.levels[2].parts, 2);
   EXPECT_EQ(summary.levels[2].error.volume_error, -0.003);
 }
@@ -162,7 +193,7 @@ TEST(RoundTrip, ReplacingAShapeKeepsItsIdAndDropsItsLevels) {
   EXPECT_EQ(catalog.shape(id).descriptors, second.descriptors);
   EXPECT_EQ(catalog.shape(id).mesh.vertices, second.mesh.vertices);
   EXPECT_EQ(catalog.find("other"), other);
-  EXPECT_THROW(catalog.level(id, 2, 64), InputError);
+  EXPECT_THROW(catalog.level(id, {2, 64}), InputError);
 }
 
 TEST(RoundTrip, StoringALevelAgainReplacesItAlone) {
@@ -174,8 +205,8 @@ TEST(RoundTrip, StoringALevelAgainReplacesItAlone) {
   LevelOfDetail again = sample_level(shape, 2);
   again.parts.pop_back();
   catalog.store_levels(id, {again});
-  EXPECT_EQ(catalog.level(id, 2, 64).parts.size(), 1u);
-  EXPECT_EQ(catalog.level(id, 4, 64).parts.size(), 2u);
+  EXPECT_EQ(catalog.level(id, {2, 64}).parts.size(), 1u);
+  EXPECT_EQ(catalog.level(id, {4, 64}).parts.size(), 2u);
 }
 
 TEST(RoundTrip, RejectedInputsAreListedUntilAShapeOfThatNameIsStored) {

@@ -45,7 +45,7 @@ TEST(ConvexDecomposition, CubeIsItsOwnHullAtEveryLevel) {
     EXPECT_EQ(count_inner(level), 0);
     EXPECT_DOUBLE_EQ(level.mass_properties.volume, 1);
     EXPECT_NEAR(level.error.symmetric_difference, 0, 1e-12);
-    EXPECT_NEAR(level.error.surface_max, 0, 1e-12);
+    EXPECT_NEAR(level.error.surface.largest, 0, 1e-12);
   }
 }
 

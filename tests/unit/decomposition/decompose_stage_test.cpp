@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "catalog/input_error.h"
@@ -61,7 +62,7 @@ TEST(DecomposeStage, StoresLevelsAndGoesOnPastABadShape) {
   ASSERT_EQ(result.failures.size(), 1u);
   EXPECT_EQ(result.failures[0].shape, "broken");
   EXPECT_EQ(result.levels.size(), 4u);
-  const catalog::LevelOfDetail level = shapes.level(*shapes.find("angle"), 2, 32);
+  const catalog::LevelOfDetail level = shapes.level(*shapes.find("angle"), {2, 32});
   EXPECT_EQ(level.parts.size(), 2u);
   EXPECT_NEAR(level.error.symmetric_difference, 0, 1e-9);
   EXPECT_EQ(level.provenance.source_sha256.size(), 64u);
@@ -86,11 +87,38 @@ TEST(DecomposeStage, KeepsWhatIsCurrentAndRemakesWhatIsNot) {
   EXPECT_EQ(made_new(), 3) << "a ladder of its own for the new cap";
   EXPECT_EQ(shapes.summary(*shapes.find("cube")).levels.size(), 6u);
   options.vertex_caps = {32};
+  options.quality.mode = catalog::FitMode::enclosing;
+  EXPECT_EQ(made_new(), 3);
+  options.quality.face_cap = 24;
+  EXPECT_EQ(made_new(), 3);
+  options.quality.mode = catalog::FitMode::volume_true;
+  options.quality.face_cap = 0;
+  EXPECT_EQ(made_new(), 0) << "other modes and caps have a place of their own";
+  EXPECT_EQ(shapes.summary(*shapes.find("cube")).levels.size(), 12u);
   options.quality.seed = 5;
   EXPECT_EQ(made_new(), 3);
+  EXPECT_EQ(shapes.summary(*shapes.find("cube")).levels.size(), 12u) << "another seed has not";
   catalog::ShapeRecord other = shape("cube", solids::box({0, 0, 0}, {1, 1, 2}));
   shapes.store_shape(other);
   EXPECT_EQ(made_new(), 3);
+}
+
+TEST(DecomposeStage, ALevelWithoutTheErrorsOfTodayIsMadeAnew) {
+  const TemporaryFolder folder;
+  catalog::ShapeCatalog shapes = small_catalog(folder / "ore.talus");
+  DecomposeBatchOptions options = one_and_two();
+  options.select = "name = 'angle'";
+  const auto quietly = [](const std::string&, std::size_t) {};
+  decompose_shapes(shapes, options, quietly);
+  const catalog::ShapeId id = *shapes.find("angle");
+  const catalog::LevelOfDetail made = shapes.level(id, {1, 32});
+  catalog::LevelOfDetail old = made;
+  old.error.surface.percentile_95 = old.error.convexity_error = std::numeric_limits<double>::quiet_NaN();
+  shapes.store_levels(id, {old});
+  const DecomposeBatchResult result = decompose_shapes(shapes, options, quietly);
+  EXPECT_TRUE(result.levels[0].is_new);
+  EXPECT_FALSE(result.levels[1].is_new);
+  EXPECT_EQ(shapes.level(id, {1, 32}).error, made.error);
 }
 
 TEST(DecomposeStage, QueryThatSelectsNothingIsRefused) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "decomposition/quality/surface_distance.h"
 #include "tests/support/solids.h"
 
 namespace decomposition {
@@ -33,7 +34,7 @@ TEST(DecompositionQuality, CubeAgainstItself) {
   EXPECT_NEAR(error.symmetric_difference, 0, 1e-12);
   EXPECT_NEAR(error.missing_volume, 0, 1e-12);
   EXPECT_NEAR(error.volume_error, 0, 1e-15);
-  EXPECT_NEAR(error.surface_max, 0, 1e-12);
+  EXPECT_NEAR(error.surface.largest, 0, 1e-12);
   EXPECT_NEAR(error.overlap, 0, 1e-12);
 }
 
@@ -49,8 +50,62 @@ TEST(DecompositionQuality, ShiftedCube) {
   // faces a strip of width d stands out, d / 2 away on average.
   const double facing = (1 - std::pow(1 - 2 * d, 3)) / 6;
   const double mean = (d + facing + 4 * d * d / 2) / 6;
-  EXPECT_NEAR(error.surface_max, d / std::sqrt(3.0), 1e-3);
-  EXPECT_NEAR(error.surface_mean, mean / std::sqrt(3.0), 0.01 * mean);
+  EXPECT_NEAR(error.surface.largest, d / std::sqrt(3.0), 1e-3);
+  EXPECT_NEAR(error.surface.mean, mean / std::sqrt(3.0), 0.01 * mean);
+  EXPECT_NEAR(error.centre_error, d / std::sqrt(3.0), 1e-15);
+  EXPECT_NEAR(error.inertia_error, 0, 1e-14);
+  EXPECT_NEAR(error.convexity_error, 0, 1e-12);
+}
+
+TEST(DecompositionQuality, CubeScaledAboutItsCentre) {
+  const double s = 1.1, low = (1 - s) / 2, high = (1 + s) / 2, gap = (s - 1) / 2;
+  const catalog::DecompositionError error = measure_error(kCube, {box_part({low, low, low}, {high, high, high})});
+  EXPECT_NEAR(error.volume_error, s * s * s - 1, 1e-14);
+  EXPECT_NEAR(error.missing_volume, 0, 1e-12);
+  EXPECT_NEAR(error.centre_error, 0, 1e-15);
+  EXPECT_NEAR(error.inertia_error, std::pow(s, 5) - 1, 1e-13);
+  EXPECT_NEAR(error.convexity_error, 0, 1e-12);
+  // Every point of the cube is as far from the faces around it; their points are farther off beyond its edges, at
+  // most at the corners, which the sample points come near to: 0.02 apart, so that a tenth of the gap may lack.
+  const double unit = 1 / std::sqrt(3.0);  // over the diagonal
+  EXPECT_NEAR(error.surface_from_mesh.mean, gap * unit, 1e-12);
+  EXPECT_NEAR(error.surface_from_mesh.percentile_95, gap * unit, 1e-12);
+  EXPECT_NEAR(error.surface_from_mesh.largest, gap * unit, 1e-12);
+  EXPECT_GE(error.surface_from_union.percentile_95, error.surface_from_union.mean);
+  EXPECT_NEAR(error.surface_from_union.largest, std::sqrt(3.0) * gap * unit, 0.1 * gap * unit);
+  EXPECT_EQ(error.surface.largest, error.surface_from_union.largest);
+  EXPECT_DOUBLE_EQ(error.surface.mean, (error.surface_from_mesh.mean + error.surface_from_union.mean) / 2);
+}
+
+TEST(DecompositionQuality, TurnedInertiaIsAnErrorThoughItsPrincipalMomentsAreNot) {
+  // A bar 3 x 1 x 1 against itself laid along y: J is m/12 (b^2 + c^2) on the diagonal, so (2, 10, 10) and (10, 2, 10).
+  const catalog::TriangleMesh bar = solids::box({0, 0, 0}, {3, 1, 1});
+  const catalog::DecompositionError error = measure_error(bar, {box_part({0, 0, 0}, {1, 3, 1})});
+  EXPECT_NEAR(error.inertia_error, std::sqrt(2 * 64.0 / 204), 1e-13);
+  EXPECT_NEAR(error.centre_error, std::sqrt(2.0) / std::sqrt(11.0), 1e-13);
+}
+
+TEST(DecompositionQuality, ConvexityOfAnLAndOfTheBoxAroundIt) {
+  // Volume 3 in a hull of 3.5, against 4 in 4.
+  const catalog::DecompositionError error = measure_error(solids::l_shape(), {box_part({0, 0, 0}, {2, 2, 1})});
+  EXPECT_NEAR(error.convexity_error, 1 - 3 / 3.5, 1e-12);
+  EXPECT_NEAR(error.volume_error, 1.0 / 3, 1e-14);
+}
+
+TEST(SurfaceDistance, PercentilesOfOneAndOfTwoSets) {
+  std::vector<double> ascending;
+  for (int k = 100; k >= 1; --k) ascending.push_back(k);
+  const catalog::SurfaceDistance one = summary(ascending, 10);
+  EXPECT_DOUBLE_EQ(one.mean, 5.05);
+  EXPECT_DOUBLE_EQ(one.percentile_95, 9.5);
+  EXPECT_DOUBLE_EQ(one.largest, 10);
+  // Half the weight lies at 0, so 90 % of the other set must be passed too.
+  const catalog::SurfaceDistance both = summary({0, 0, 0}, ascending, 10);
+  EXPECT_DOUBLE_EQ(both.mean, 2.525);
+  EXPECT_DOUBLE_EQ(both.percentile_95, 9);
+  EXPECT_DOUBLE_EQ(both.largest, 10);
+  EXPECT_EQ(summary({}, ascending, 10), one);
+  EXPECT_EQ(summary({}, 10), catalog::SurfaceDistance{});
 }
 
 TEST(DecompositionQuality, StatedErrorCoversTheTruthForABallInACube) {
@@ -66,7 +121,7 @@ TEST(DecompositionQuality, StatedErrorCoversTheTruthForABallInACube) {
   EXPECT_NEAR(error.missing_volume, 1 - volume, 4 * error.method_error + 1e-3);
   EXPECT_NEAR(error.volume_error, volume - 1, 1e-12);
   // The cube's corner is farthest from the ball: (sqrt 3 - 1) / 2, over the diagonal sqrt 3.
-  EXPECT_NEAR(error.surface_max, (std::sqrt(3.0) - 1) / 2 / std::sqrt(3.0), 0.01);
+  EXPECT_NEAR(error.surface.largest, (std::sqrt(3.0) - 1) / 2 / std::sqrt(3.0), 0.01);
 }
 
 TEST(DecompositionQuality, CountsOverlap) {
@@ -82,7 +137,7 @@ TEST(DecompositionQuality, FlushInnerFacesAreNoSurface) {
   catalog::ConvexPart left = box_part({0, 0, 0}, {0.5, 1, 1}), right = box_part({0.5, 0, 0}, {1, 1, 1});
   left.faces[1].kind = right.faces[0].kind = catalog::FaceKind::inner;
   const catalog::DecompositionError error = measure_error(kCube, {left, right});
-  EXPECT_NEAR(error.surface_max, 0, 1e-9);
+  EXPECT_NEAR(error.surface.largest, 0, 1e-9);
   EXPECT_NEAR(error.symmetric_difference, 0, 1e-12);
 }
 
@@ -90,7 +145,7 @@ TEST(DecompositionQuality, SameSeedSameFigures) {
   const std::vector<catalog::ConvexPart> parts{box_part({0.1, 0, 0.02}, {1, 1, 1.03})};
   const catalog::DecompositionError a = measure_error(kCube, parts), b = measure_error(kCube, parts);
   EXPECT_EQ(a.symmetric_difference, b.symmetric_difference);
-  EXPECT_EQ(a.surface_mean, b.surface_mean);
+  EXPECT_EQ(a.surface.mean, b.surface.mean);
 }
 
 }  // namespace

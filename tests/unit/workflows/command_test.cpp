@@ -148,6 +148,9 @@ TEST_F(CatalogCommand, Show) {
   EXPECT_EQ(shape["provenance"]["source_sha256"], std::string(64, 'a'));
   EXPECT_EQ(shape["checks"].size(), 2u);
   EXPECT_EQ(shape["levels"][1]["error"]["volume_error"], -0.003);
+  EXPECT_EQ(shape["levels"][1]["error"]["surface_from_union"]["percentile_95"], 3e-3);
+  EXPECT_EQ(shape["levels"][1]["mode"], "volume-true");
+  EXPECT_EQ(shape["levels"][1]["face_cap"], 0);
 }
 
 TEST_F(CatalogCommand, UnknownNames) {
@@ -198,8 +201,11 @@ TEST_F(CatalogCommand, Export) {
   const std::string before = text_of(path);
   const Outcome missing = start("export", "rock_2 --level 2 --off '" + path + "'");
   EXPECT_EQ(missing.status, 3);
-  EXPECT_NE(missing.err.find("it has 1 4"), std::string::npos) << missing.err;
+  EXPECT_NE(missing.err.find("it has 1 part of at most 64 vertices; 4 parts of at most 64 vertices"), std::string::npos)
+      << missing.err;
   EXPECT_EQ(text_of(path), before);
+  EXPECT_EQ(start("export", "rock_2 --level 4 --mode enclosing --off '" + path + "'").status, 3);
+  EXPECT_EQ(start("export", "rock_2 --mode enclosing --off '" + path + "'").status, 2) << "of which level?";
   EXPECT_EQ(start("export", "rock_2").status, 2);
 }
 

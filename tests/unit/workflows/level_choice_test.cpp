@@ -8,11 +8,12 @@
 namespace {
 
 using namespace workflows;
+using catalog::FitMode;
 
 Level level(int parts, int vertex_cap, int faces, double error) {
   Level one;
-  one.parts_asked = one.parts = parts;
-  one.vertex_cap = vertex_cap;
+  one.key.parts_asked = one.parts = parts;
+  one.key.vertex_cap = vertex_cap;
   one.faces = faces;
   one.error.symmetric_difference = error;
   return one;
@@ -35,12 +36,26 @@ TEST(LevelChoice, FrontLeavesOutWhatIsDearerAndWorse) {
 }
 
 TEST(LevelChoice, CheapestWithinTheTolerance) {
-  EXPECT_EQ(cheapest_level(kLadder, 0.2, {})->vertex_cap, 16);
-  EXPECT_EQ(cheapest_level(kLadder, 0.0945, {})->parts, 4) << "cheaper than one part of 32 vertices";
-  EXPECT_EQ(cheapest_level(kLadder, 0.0945, 32)->parts, 1);
-  EXPECT_EQ(cheapest_level(kLadder, 0.07, {})->parts, 8);
-  EXPECT_FALSE(cheapest_level(kLadder, 0.01, {}));
-  EXPECT_FALSE(cheapest_level(kLadder, 0.2, 64));
+  EXPECT_EQ(cheapest_level(kLadder, 0.2)->key.vertex_cap, 16);
+  EXPECT_EQ(cheapest_level(kLadder, 0.0945)->parts, 4) << "cheaper than one part of 32 vertices";
+  EXPECT_EQ(cheapest_level(LevelFilter{.vertex_cap = 32}(kLadder), 0.0945)->parts, 1);
+  EXPECT_EQ(cheapest_level(kLadder, 0.07)->parts, 8);
+  EXPECT_FALSE(cheapest_level(kLadder, 0.01));
+  EXPECT_FALSE(cheapest_level(LevelFilter{.vertex_cap = 64}(kLadder), 0.2));
+}
+
+TEST(LevelChoice, FilterTellsModesAndCapsApart) {
+  std::vector<Level> levels = kLadder;
+  levels.push_back(level(2, 32, 40, 0.09));
+  levels.back().key.face_cap = 24;
+  levels.push_back(level(2, 32, 60, 0.2));
+  levels.back().key.mode = FitMode::enclosing;
+  EXPECT_EQ(LevelFilter{}(levels).size(), 6u) << "volume-true, any caps";
+  EXPECT_EQ(LevelFilter{.face_cap = 0}(levels).size(), 5u);
+  EXPECT_EQ((LevelFilter{.vertex_cap = 32, .face_cap = 24}(levels).size()), 1u);
+  EXPECT_EQ(LevelFilter{.mode = FitMode::enclosing}(levels).size(), 1u);
+  EXPECT_TRUE(LevelFilter{.mode = FitMode::inscribed}(levels).empty());
+  EXPECT_TRUE(on_front(levels).back()) << "each mode has a front of its own";
 }
 
 }  // namespace

@@ -134,11 +134,40 @@ TEST_F(SceneAssembly, RefusesWithPlaceAndRemedy) {
                      "is off by 14.29 %); allow more, or make finer ones with: talus decompose");
   expect_refusal(scene_from_catalogue("tolerance = \"20 %\"\nvertices = 16"),
                  "no level of at most 16 vertices within tolerance = 20 % (it has no level)");
+  expect_refusal(scene_from_catalogue("parts = 2\nmode = \"enclosing\"\nfaces = 34"),
+                 "no level of 2 parts of at most 34 faces, enclosing (it has: none); make it with: talus decompose");
+  expect_refusal(scene_from_catalogue("parts = 2\nmode = \"enclosing\"\nfaces = 34"),
+                 "--parts 2 --faces 34 --mode enclosing");
+  expect_refusal(scene_from_catalogue("parts = 2\nmode = \"enclosed\""), "nearest known: \"enclosing\"");
+  expect_refusal(scene_from_catalogue("parts = 2\nfaces = 125"), "faces");
   expect_refusal(with(scene_from_catalogue("parts = 2"), "ore.talus", "none.talus"), "none.talus");
   expect_refusal(with(test_support::drum_scene(), "count = 12", "count = 4000"), fill + "the region holds ");
   expect_refusal(with(test_support::drum_scene(), "radius = \"10 cm\"", "radius = \"5 cm\""), "into wall \"shell\"");
   expect_refusal(with(test_support::drum_scene(), "radius = \"85 mm\"", "radius = \"84 mm\""),
                  "bodies of fill \"blocks\" and fill \"balls\" would start inside one another");
+}
+
+TEST_F(SceneAssembly, ModeAndFaceCapChooseTheLevel) {
+  {
+    catalog::ShapeCatalog catalogue(folder_ / "ore.talus", catalog::ShapeCatalog::Access::read_write);
+    const catalog::ShapeId id = *catalogue.find("flint");
+    catalog::LevelOfDetail level = test_support::sample_level(catalogue.shape(id), 2);  // usual one: off by 1/7
+    level.key.face_cap = 34;
+    level.error.symmetric_difference = 0.13;
+    catalog::LevelOfDetail enclosing = test_support::sample_level(catalogue.shape(id), 2);
+    enclosing.key.mode = catalog::FitMode::enclosing;
+    enclosing.error.symmetric_difference = 0.12;
+    catalogue.store_levels(id, {level, enclosing});
+  }
+  const auto error_of = [&](const std::string& lines) {
+    return assemble(scene_from_catalogue("select = \"name = 'flint'\"\n" + lines)).shapes[0].symmetric_difference;
+  };
+  EXPECT_EQ(error_of("parts = 2"), 1.0 / 7) << "volume-true without a cap of faces";
+  EXPECT_EQ(error_of("parts = 2\nfaces = 34"), 0.13);
+  EXPECT_EQ(error_of("parts = 2\nmode = \"enclosing\""), 0.12);
+  EXPECT_EQ(error_of("tolerance = \"13.5 %\""), 0.13) << "any cap of faces";
+  EXPECT_EQ(error_of("tolerance = \"15 %\"\nfaces = 0"), 1.0 / 7) << "none";
+  EXPECT_EQ(error_of("tolerance = \"15 %\"\nmode = \"enclosing\""), 0.12);
 }
 
 TEST_F(SceneAssembly, AMissingDescriptorIsNamedOnlyWhereItIsNeeded) {

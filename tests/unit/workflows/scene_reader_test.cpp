@@ -163,7 +163,7 @@ TEST(SceneReader, CataloguePathsStartFromTheSceneFolder) {
   EXPECT_EQ(shapes.catalogue, "/ore/demo.talus");
   EXPECT_EQ(shapes.query, "sphericity_wadell > 0.7");
   EXPECT_EQ(shapes.parts, 4);
-  EXPECT_FALSE(shapes.vertex_cap);
+  EXPECT_FALSE(shapes.levels.vertex_cap);
 }
 
 TEST(SceneReader, RollingFrictionAndAdhesionOfAPair) {

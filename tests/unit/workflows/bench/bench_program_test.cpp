@@ -83,6 +83,30 @@ TEST(BenchProgram, LevelsOfACatalogue) {
   EXPECT_NE(read_bytes(folder / "levels_front.svg").find("flint, 64 vertices"), std::string::npos);
 }
 
+#ifdef TALUS_BENCH_DECOMPOSITION
+TEST(BenchProgram, DecompositionWithoutScansMeasuresTheTorusAndSaysWhatIsLeftOut) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(run_bench(folder, "decomposition --scans '" + (folder / "none").string() + "'").status, 3);
+  const Ended ended =
+      run_bench(folder, "decomposition --case torus-64-f24 --seeds 1 --out '" + (folder / "new").string() + "'");
+  EXPECT_EQ(ended.status, 0) << ended.error;
+  for (const char* expected : {"Not measured, for want of files: stone14 (epfl_stone14.stl)", "cap of 24 faces",
+                               "| torus | 8 x 64 ", "## Rules"})
+    EXPECT_NE(ended.out.find(expected), std::string::npos) << expected;
+  const std::string page = read_bytes(folder / "new/decomposition.md");
+  EXPECT_TRUE(page.starts_with(ended.out)) << "the page is what was printed, and the plots";
+  EXPECT_NE(page.find("](decomposition_cost.svg)"), std::string::npos);
+  EXPECT_FALSE(read_bytes(folder / "new/decomposition_cost.svg").empty());
+  std::istringstream lines(read_bytes(folder / "new/decomposition.json"));
+  std::string line;
+  ASSERT_TRUE(std::getline(lines, line));
+  const auto figure = nlohmann::json::parse(line);
+  EXPECT_EQ(figure["figure"], "8 parts: symmetric difference, median");
+  EXPECT_EQ(figure["command"], "talus bench decomposition --case torus-64-f24 --seeds 1");
+  EXPECT_TRUE(figure["goal"].is_null()) << "goals are those without a cap of faces";
+}
+#endif
+
 TEST(BenchProgram, JsonLinesHaveTheAgreedFieldsAndTheCommandGivesTheFigureAlone) {
   const TemporaryFolder folder;
   const Ended ended =

@@ -31,6 +31,15 @@ TEST(LogPlot, EqualRatiosAreEqualDistances) {
   EXPECT_GT(places[2].second, places[0].second) << "a smaller error stands lower";
 }
 
+TEST(LogPlot, FewPowersOfTenAreDividedAtTwoAndFive) {
+  const auto ticks_of = [](double y) {
+    return log_plot_svg(kAxes, {{"error", "curve", {1, 10}, {1, y}, {"5", "10"}}});
+  };
+  EXPECT_NE(ticks_of(0.02).find(">0.05</text>"), std::string::npos);
+  EXPECT_EQ(ticks_of(1e-6).find(">0.05</text>"), std::string::npos);
+  EXPECT_NE(ticks_of(1e-6).find(">1e-6</text>"), std::string::npos);
+}
+
 TEST(LogPlot, FailedRunsAreNamedAndNotDrawn) {
   const std::string svg =
       log_plot_svg(kAxes, {{"error", "cube", {1e-3, kFailedRun}, {1e-1, kFailedRun}, {"5 steps", "10 steps"}}});

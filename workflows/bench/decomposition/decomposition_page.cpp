@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "workflows/bench/decomposition/decomposition_page.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "workflows/bench/decomposition/bench_levels.h"
+#include "workflows/bench/decomposition/goal_rows.h"
+#include "workflows/bench/decomposition/markdown_table.h"
+
+namespace workflows {
+namespace {
+
+using Cells = std::vector<std::string>;
+
+/// Figures by case and name; those that are not there are not numbers.
+class FigureTable {
+ public:
+  explicit FigureTable(const std::vector<ReportedFigure>& figures) {
+    for (const ReportedFigure& reported : figures)
+      if (reported.figure.value) values_[{reported.case_name, reported.figure.name}] = *reported.figure.value;
+  }
+  double operator()(const std::string& case_name, const std::string& figure) const {
+    const auto found = values_.find({case_name, figure});
+    return found == values_.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
+  }
+
+ private:
+  std::map<std::pair<std::string, std::string>, double> values_;
+};
+
+std::string machine() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "an unnamed processor";
+}
+
+/// The rows measured under a cap of faces.
+std::vector<GoalRow> measured_rows(const FigureTable& figures, int face_cap) {
+  std::vector<GoalRow> rows = goal_rows();
+  std::erase_if(rows, [&](const GoalRow& row) {
+    return std::isnan(figures(row.case_name(face_cap), difference_figures().front().name_in(row)));
+  });
+  return rows;
+}
+
+void add_columns(Cells& header, const std::vector<RowFigure>& columns) {
+  for (const RowFigure& column : columns) header.push_back(column.heading);
+}
+
+void add_figures(Cells& cells, const FigureTable& figures, const GoalRow& row, int face_cap,
+                 const std::vector<RowFigure>& columns) {
+  for (const RowFigure& column : columns)
+    cells.push_back(fixed(figures(row.case_name(face_cap), column.name_in(row)), column.decimals));
+}
+
+std::string goals_table(const FigureTable& figures, const std::vector<GoalRow>& rows, int face_cap) {
+  std::vector<Cells> table{{"shape", "parts x vertices", "best public"}};
+  add_columns(table.front(), difference_figures());
+  table.front().insert(table.front().end(), {"goal %", "stretch %", "verdict"});
+  for (const GoalRow& row : rows) {
+    table.push_back({row.solid, row.text(), row.best_public.empty() ? "-" : row.best_public});
+    add_figures(table.back(), figures, row, face_cap, difference_figures());
+    const double median = figures(row.case_name(face_cap), difference_figures().front().name_in(row));
+    const char* verdict = median <= row.stretch ? "stretch" : median <= row.goal ? "goal" : "missed";
+    table.back().insert(table.back().end(), {fixed(row.goal, 2), fixed(row.stretch, 2), verdict});
+  }
+  return aligned_markdown(table);
+}
+
+std::string errors_table(const FigureTable& figures, const std::vector<GoalRow>& rows) {
+  std::vector<Cells> table{{"shape", "parts x vertices"}};
+  add_columns(table.front(), error_figures());
+  for (const GoalRow& row : rows) {
+    table.push_back({row.solid, row.text()});
+    add_figures(table.back(), figures, row, 0, error_figures());
+  }
+  return aligned_markdown(table);
+}
+
+std::string rules_table(const FigureTable& figures) {
+  std::vector<Cells> table{{"shape", "parts x vertices", "faces <="}};
+  add_columns(table.front(), rule_figures());
+  for (const int cap : kFaceCaps)
+    for (const GoalRow& row : measured_rows(figures, cap)) {
+      table.push_back({row.solid, row.text(), cap > 0 ? std::to_string(cap) : "-"});
+      add_figures(table.back(), figures, row, cap, rule_figures());
+    }
+  return aligned_markdown(table);
+}
+
+std::string times_table(const FigureTable& figures) {
+  std::vector<Cells> table{{"what", "verdict", "CPU s", "goal CPU s"}};
+  for (const TimeGoal& goal : kTimeGoals) {
+    const double time = figures(kTimeCase, goal.name);
+    table.push_back({kTimedSolid + ", " + goal.name, time <= goal.seconds ? "goal" : "missed", fixed(time, 1),
+                     fixed(goal.seconds, 0)});
+  }
+  return aligned_markdown(table);
+}
+
+std::string efforts_table(const FigureTable& figures) {
+  std::vector<Cells> table{{"shape", "parts x vertices", "effort", "difference %", "CPU s"}};
+  for (const int parts : kEffortParts)
+    for (const double effort : kEfforts)
+      table.push_back({kTimedSolid, std::to_string(parts) + " x " + std::to_string(kEffortVertexCap), fixed(effort, 2),
+                       fixed(figures(kEffortCase, effort_figure(parts, effort, "symmetric difference")), 3),
+                       fixed(figures(kEffortCase, effort_figure(parts, effort, "CPU time")), 2)});
+  return aligned_markdown(table);
+}
+
+struct FrontLevel {
+  catalog::LevelKey key;
+  double difference, cost;
+};
+
+/// The levels measured that no other is at most as dear and at most as wrong as, cheapest first.
+std::vector<FrontLevel> front_of(const FigureTable& figures, const FrontCase& one) {
+  std::vector<FrontLevel> levels;
+  for (catalog::LevelKey key : one.ladders)
+    for (const int parts : kLadder) {
+      key.parts_asked = parts;
+      const double cost = figures(one.name(), front_figure(key, "time of a contact over that of cubes"));
+      if (!std::isnan(cost))
+        levels.push_back({key, figures(one.name(), front_figure(key, "symmetric difference")), cost});
+    }
+  std::vector<FrontLevel> front;
+  for (const FrontLevel& level : levels)
+    if (std::none_of(levels.begin(), levels.end(), [&](const FrontLevel& other) {
+          return other.cost <= level.cost && other.difference <= level.difference &&
+                 (other.cost < level.cost || other.difference < level.difference);
+        }))
+      front.push_back(level);
+  std::stable_sort(front.begin(), front.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
+  return front;
+}
+
+std::string front_table(const FigureTable& figures) {
+  const Cells others{"parts kept", "vertices", "faces", "contact_cost"};
+  std::vector<Cells> table{
+      {"shape", "level", "difference %", "measured cost", "parts", "vertices", "faces", "cost by formula"}};
+  for (const FrontCase& one : kFrontCases)
+    for (const FrontLevel& level : front_of(figures, one)) {
+      table.push_back({one.solid, std::to_string(level.key.parts_asked) + " x " + ladder_text(level.key),
+                       fixed(level.difference, 3), fixed(level.cost, 1)});
+      for (const std::string& what : others)
+        table.back().push_back(
+            fixed(figures(one.name(), front_figure(level.key, what)), what == others.back() ? 1 : 0));
+    }
+  return aligned_markdown(table);
+}
+
+/// Whether a case has been run.
+bool has_case(const std::vector<ReportedFigure>& figures, const std::string& beginning) {
+  return std::any_of(figures.begin(), figures.end(),
+                     [&](const ReportedFigure& reported) { return reported.case_name.starts_with(beginning); });
+}
+
+std::string section(const std::string& heading, const std::string& text, const std::string& table) {
+  return "\n## " + heading + "\n\n" + text + "\n\n" + table;
+}
+
+std::string head(const std::vector<std::string>& left_out, int seeds) {
+  std::string page =
+      "# Convex decomposition: error, time, front\n\nWritten by `talus bench decomposition --scans DIR` (" +
+      std::to_string(seeds) + " seeds a row) on " + machine() +
+      ". Errors are those of the measure that stands apart from the search: volumes by exact rays, surfaces by sample "
+      "points. Errors and rules are the same on every machine, times are not.\n";
+  if (left_out.empty()) return page;
+  page += "\nNot measured, for want of files:";
+  for (const std::string& name : left_out) page += (name == left_out.front() ? " " : ", ") + name;
+  return page + ".\n";
+}
+
+}  // namespace
+
+std::string decomposition_page(const std::vector<ReportedFigure>& figures, const std::vector<std::string>& left_out,
+                               int seeds) {
+  const FigureTable table(figures);
+  std::string page = head(left_out, seeds);
+  bool has_rows = false;
+  for (const int cap : kFaceCaps) {
+    const std::vector<GoalRow> rows = measured_rows(table, cap);
+    if (rows.empty()) continue;
+    has_rows = true;
+    if (cap > 0)
+      page += section("The same under a cap of " + std::to_string(cap) + " faces a part",
+                      "Faces on one plane are one. Goals are those without the cap, for comparison.",
+                      goals_table(table, rows, cap));
+    else
+      page += section("Symmetric difference",
+                      "Of the union of parts to the mesh, over the mesh's volume; median, best and worst of the seeds; "
+                      "+- is the standard error of the measurement (worst). Best public: V-HACD 4.1 and CoACD on the "
+                      "same files.",
+                      goals_table(table, rows, cap));
+  }
+  if (const std::vector<GoalRow> rows = measured_rows(table, 0); !rows.empty())
+    page += section("Other errors",
+                    "Medians of the seeds. Distances over the diagonal of the mesh's bounding box: both ways, from "
+                    "points of the mesh to the parts, from points of the parts to the mesh. Centre over the diagonal; "
+                    "inertia tensor over its norm; convexity is the difference in V / V_hull.",
+                    errors_table(table, rows));
+  if (has_rows)
+    page += section("Rules",
+                    "Counts and CPU time (of the ladder that holds the level, measuring included) are medians, the "
+                    "others the worst of the seeds. Asked for: edges at least 1 % and faces 2 % of the size of their "
+                    "part, volume error at most 0.1 % (volume-true), nothing missing (enclosing), no overlap, which is "
+                    "tested exactly.",
+                    rules_table(table));
+  if (has_case(figures, kTimeCase))
+    page += section("Time", "CPU time of all threads, measuring included; medians of at most three seeds.",
+                    times_table(table));
+  if (has_case(figures, kEffortCase))
+    page +=
+        section("Effort", "What more search gains (`--effort`); medians of at most three seeds.", efforts_table(table));
+  if (has_case(figures, "front-"))
+    page += section("Front",
+                    "The levels that no other of the shape beats in both error and cost (seed 1; ladders of 1 to 32 "
+                    "parts under each cap). Cost: time of a contact of two such bodies in the engine over that of two "
+                    "cubes, measured, and by the formula that scenes choose levels with.",
+                    front_table(table));
+  return page;
+}
+
+}  // namespace workflows
