@@ -80,8 +80,8 @@ ShapeWork work_of(const catalog::ShapeCatalog& shapes, catalog::ShapeId id, cons
   for (const int cap : options.vertex_caps)
     for (const int parts : options.part_counts) {
       DecomposedLevel level{shape.name, {}, true, 0};
-      level.level.parts_asked = parts;
-      level.level.vertex_cap = cap;
+      level.level.key.parts_asked = parts;
+      level.level.key.vertex_cap = cap;
       if (auto kept = kept_level(shapes, id, work.hash, with_cap(options, cap), parts)) {
         level.level = std::move(*kept);
         level.is_new = false;
@@ -98,9 +98,9 @@ void make_levels(const catalog::TriangleMesh& mesh, const DecomposeBatchOptions&
     std::vector<DecomposedLevel*> missing;
     std::vector<int> part_counts;
     for (DecomposedLevel& level : work.levels)
-      if (level.is_new && level.level.vertex_cap == cap) {
+      if (level.is_new && level.level.key.vertex_cap == cap) {
         missing.push_back(&level);
-        part_counts.push_back(level.level.parts_asked);
+        part_counts.push_back(level.level.key.parts_asked);
       }
     if (missing.empty()) continue;
     decomposition::DecompositionOptions quality = with_cap(options, cap);
