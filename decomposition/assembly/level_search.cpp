@@ -20,19 +20,21 @@ constexpr double kFieldCells = 2e6;     // a rock of 30,000 faces gets cells abo
 constexpr double kSearchCells = 2.5e5;  // for comparing cuts: what fits the caches is looked up faster
 // The race, at effort 1: so many trees are grown, the best of them go on beyond kFirstChoice parts (the joint fit's
 // misfit there foretells that at twice as many: correlation 0.5 to 0.8 on rocks).
-constexpr double kTrees = 8, kTreesGoingOn = 2;
+constexpr double kTrees = 8, kTreesGoingOn = 4;
+constexpr double kTreesEnclosing = 5;   // their hulls take more time and scatter less
 constexpr double kTreesOfFaceted = 2;   // the many facet planes to try make these trees dear, and alike
-constexpr double kTreesBeyondMany = 3;  // at more than kManyParts, where the choice at kFirstChoice foretells less
-constexpr int kFirstChoice = 4, kManyParts = 8;
+constexpr double kTreesBeyondMany = 6;  // at more than kManyParts, where the choice at kFirstChoice foretells less ...
+constexpr double kTreesOfVeryMany = 3;  // ... but at more than kVeryManyParts trees are dear
+constexpr int kFirstChoice = 4, kManyParts = 8, kVeryManyParts = 16;
 constexpr double kShareForTrees = 0.5;  // of a time budget
 constexpr std::size_t kMostTrees = 1000;
 constexpr double kRoomToMove = 1.3;  // on the smallest volume and thickness: the joint fits move the cuts
-constexpr double kDirections = 24, kRefits = 6;
+constexpr double kDirections = 24, kRefits = 20;
 constexpr int kFewParts = 8, kMostTimes = 4;
 constexpr int kMovingSteps = 150;  // of the joint fits that move a tree's cuts while it grows
 constexpr int kTrialSteps = 400;   // of the joint fits that compare trees
 constexpr double kTrialFirst = 0.02, kTrialLast = 0.001;
-constexpr double kFinals = 2;  // of the best starts are finished, at effort 1
+constexpr double kFinals = 2, kFinalsEnclosing = 3;  // of the best starts are finished, at effort 1
 constexpr int kFinalSteps = 1200;
 constexpr double kFinalFirst = 0.01, kFinalLast = 0.0007;  // share of the diagonal
 constexpr double kCutRate = 0.5;
@@ -70,6 +72,7 @@ LevelSearch::LevelSearch(const catalog::TriangleMesh& mesh, const DecompositionO
   plan_.directions = std::max(4, static_cast<int>(std::lround(kDirections * std::fmin(1.0, options.effort))));
   plan_.refits = std::max(2, static_cast<int>(std::lround(kRefits * std::fmin(1.0, options.effort))));
   plan_.polishing_rounds = 0;  // the joint fits move the cuts
+  plan_.encloses = options.mode == FitMode::enclosing;
   plan_.vertex_cap = options.vertex_cap;
   plan_.face_cap = options.face_cap;
   plan_.smallest_volume = options.smallest_volume * solid_.volume();
@@ -114,7 +117,7 @@ JointPlan LevelSearch::joint_plan() const {
   plan.cut_rate = kCutRate;
   plan.smallest_part = plan_.smallest_volume;
   if (options_.mode == FitMode::volume_true) plan.volume = solid_.volume();
-  if (options_.mode == FitMode::enclosing) plan.rock_weight = kBoundWeight;
+  if (options_.mode == FitMode::enclosing) plan.rock_weight = kBoundWeight, plan.cut_rate = 0;
   if (options_.mode == FitMode::inscribed) plan.rock_weight = 1 / kBoundWeight;
   plan.seed = options_.seed;
   return plan;
@@ -134,7 +137,11 @@ void LevelSearch::move_cuts(TreeStages& stages, int count) const {
   double misfit = 0;
   for (const int piece : pieces) misfit += tree.piece(piece).error;
   // Cuts of a drawn solid stay on its facets.
-  if (static_cast<int>(pieces.size()) == count && !solid_.is_faceted()) {
+  if (plan_.encloses && !solid_.is_faceted()) {
+    tree.polish_hulls();
+    misfit = 0;
+    for (const int piece : tree.pieces(count)) misfit += tree.piece(piece).error;
+  } else if (static_cast<int>(pieces.size()) == count && !solid_.is_faceted()) {
     Partition partition = start_partition(coarse_, tree, count, options_.vertex_cap, options_.seed);
     JointPlan plan = joint_plan();
     plan.steps = kMovingSteps;
@@ -161,6 +168,15 @@ const CutTree& LevelSearch::stage(std::size_t tree, int count) {
   return stages.grown.at(count);
 }
 
+/// The tree from which parts are fitted: as grown, the joint fits move the cuts; cuts of enclosing parts stand still.
+const CutTree& LevelSearch::polished(std::size_t tree, int count) {
+  const CutTree& grown = stage(tree, count);
+  if (!plan_.encloses || static_cast<int>(grown.pieces(count).size()) < count) return grown;
+  TreeStages& stages = trees_[tree];
+  if (!stages.moved.contains(count)) move_cuts(stages, count);
+  return stages.moved.at(count);
+}
+
 /// As many trees as the effort or the time asks for, grown to `count` parts or to where the best are chosen.
 void LevelSearch::plant_trees(int count) {
   const int grown_to = std::min(count, kFirstChoice);
@@ -174,7 +190,8 @@ void LevelSearch::plant_trees(int count) {
     }
     return;
   }
-  const double trees = (solid_.is_faceted() ? kTreesOfFaceted : kTrees) * options_.effort;
+  const double trees =
+      (solid_.is_faceted() ? kTreesOfFaceted : (plan_.encloses ? kTreesEnclosing : kTrees)) * options_.effort;
   trees_.resize(static_cast<std::size_t>(std::max(1.0, std::round(trees))));
   parallel_for(static_cast<int>(trees_.size()), threads(),
                [&](int t) { stage(static_cast<std::size_t>(t), grown_to); });
@@ -194,7 +211,9 @@ std::vector<std::size_t> LevelSearch::racing_trees(int count) {
   std::stable_sort(racing.begin(), racing.end(), [&](std::size_t a, std::size_t b) {
     return trees_[a].misfit.at(kFirstChoice) < trees_[b].misfit.at(kFirstChoice);
   });
-  const double going_on = (count > kManyParts ? kTreesBeyondMany : kTreesGoingOn) * std::sqrt(options_.effort);
+  const double trees =
+      count > kVeryManyParts ? kTreesOfVeryMany : (count > kManyParts ? kTreesBeyondMany : kTreesGoingOn);
+  const double going_on = trees * std::sqrt(options_.effort);
   racing.resize(std::min(racing.size(), static_cast<std::size_t>(std::max(1.0, std::round(going_on)))));
   return racing;
 }
@@ -206,7 +225,7 @@ std::vector<LevelSearch::Start> LevelSearch::starts_from(std::size_t tree, int c
     start.tree = tree;
     JointPlan plan = joint_plan();
     plan.seed = sub_seed(options_.seed, 100 * tree + static_cast<std::uint64_t>(variant));
-    start.partition = start_partition(solid_, stage(tree, count), count, options_.vertex_cap, plan.seed);
+    start.partition = start_partition(solid_, polished(tree, count), count, options_.vertex_cap, plan.seed);
     if (static_cast<int>(start.partition.leaves.size()) < count) continue;  // the tree has no more
     if (trim(solid_, start.partition, rules(), Trim::caps).empty()) continue;
     if (!fit_jointly(solid_, start.partition, plan)) continue;
@@ -254,6 +273,10 @@ LevelSearch::Finish LevelSearch::finished(Partition partition) const {
     if (std::abs(ratio - 1) < kVolumeAgreement) break;
     scale_volume(partition, centre, ratio);
   }
+  finish.keeps_rules = std::all_of(finish.parts.begin(), finish.parts.end(), [&](const BuiltPart& part) {
+    const LevelFigures figure = figures({part.part});
+    return figure.shortest_edge >= rules().shortest_edge && figure.narrowest_face >= rules().narrowest_face;
+  });
   return finish;
 }
 
@@ -277,7 +300,9 @@ std::vector<BuiltPart> LevelSearch::built(const Partition& partition) const {
 
 FoundLevel LevelSearch::found_jointly(int count) {
   const std::vector<Start>& all = starts(count);
-  const auto at_once = static_cast<std::size_t>(std::max(1.0, std::round(kFinals * std::sqrt(options_.effort))));
+  const auto at_once = static_cast<std::size_t>(
+      std::max(1.0, std::round((plan_.encloses ? kFinalsEnclosing : kFinals) * std::sqrt(options_.effort))));
+  Finish best;
   for (std::size_t first = 0; first < all.size(); first += at_once) {
     std::vector<Finish> finishes(std::min(at_once, all.size() - first));
     parallel_for(static_cast<int>(finishes.size()), threads(), [&](int k) {
@@ -285,12 +310,15 @@ FoundLevel LevelSearch::found_jointly(int count) {
       finishes[f] = finished(all[first + f].partition);
       if (!is_acceptable(finishes[f].parts)) finishes[f].parts.clear();
     });
-    Finish* best = nullptr;
-    for (Finish& finish : finishes)
-      if (!finish.parts.empty() && (!best || finish.misfit < best->misfit)) best = &finish;
-    if (best) return {std::move(best->parts), 0};
+    for (Finish& finish : finishes) {
+      if (finish.parts.empty()) continue;
+      const bool is_better = best.parts.empty() || (finish.keeps_rules && !best.keeps_rules) ||
+                             (finish.keeps_rules == best.keeps_rules && finish.misfit < best.misfit);
+      if (is_better) best = std::move(finish);
+    }
+    if (best.keeps_rules) break;
   }
-  return {};
+  return {std::move(best.parts), 0};
 }
 
 bool LevelSearch::is_acceptable(const std::vector<BuiltPart>& parts) const {

@@ -48,6 +48,7 @@ class LevelSearch {
   PartRules rules() const;
 
   const CutTree& stage(std::size_t tree, int count);
+  const CutTree& polished(std::size_t tree, int count);
   void move_cuts(TreeStages& stages, int count) const;
   void plant_trees(int count);
   std::vector<std::size_t> racing_trees(int count);
@@ -58,6 +59,7 @@ class LevelSearch {
   struct Finish {
     std::vector<BuiltPart> parts;
     double misfit = 0;
+    bool keeps_rules = false;  // a bound may leave no room for that
   };
   Finish finished(Partition partition) const;
   std::vector<BuiltPart> built(const Partition& partition) const;

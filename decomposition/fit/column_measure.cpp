@@ -28,8 +28,8 @@ void ColumnMeasure::rasterise(const Vec3& a, const Vec3& b, const Vec3& c) {
       if (high->y < low->y) std::swap(low, high);
       if (!(low->y <= y && y < high->y)) continue;
       const double x = low->x + (y - low->y) / (high->y - low->y) * (high->x - low->x);
-      left = std::fmin(left, x);
-      right = std::fmax(right, x);
+      left = std::min(left, x);
+      right = std::max(right, x);
     }
     if (!(left < right)) continue;
     const int last = std::min(column_of(right), width_);
@@ -67,8 +67,8 @@ ColumnOverlap ColumnMeasure::operator()(const std::vector<Vec3>& points, const s
       sum.volume += span.high - span.low;
       const std::size_t ray = rays.index((i0_ + i) * stride_, (j0_ + j) * stride_);
       for (std::size_t k = columns.first[ray]; k < columns.first[ray + 1]; ++k)
-        sum.overlap += std::fmax(
-            0.0, std::fmin(columns.intervals[k].high, span.high) - std::fmax(columns.intervals[k].low, span.low));
+        sum.overlap += std::max(
+            0.0, std::min(columns.intervals[k].high, span.high) - std::max(columns.intervals[k].low, span.low));
     }
   sum.volume *= pitch * pitch;
   sum.overlap *= pitch * pitch;

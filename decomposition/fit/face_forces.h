@@ -20,7 +20,9 @@ struct VertexForces {
 struct ForceSampling {
   int along = 4;           // at most this squared points a face, stratified and shifted anew on each face
   double rock_weight = 1;  // of rock left out against void taken in
-  double steering = 0;     // added to the pull everywhere: positive pushes inward
+  bool interpolates =
+      true;             // between cells; thin bodies need it, comparing cuts does not and takes one look-up of eight
+  double steering = 0;  // added to the pull everywhere: positive pushes inward
 };
 
 /// Derivative of the symmetric difference with respect to a vertex: over its faces, the integral of (barycentric
@@ -36,7 +38,8 @@ void gather_forces(const Solid& solid, const std::vector<Vec3>& points, const st
                &c = points[static_cast<std::size_t>(face[2])];
     const Vec3 area_normal = 0.5 * cross(b - a, c - a);
     const double area = norm(area_normal);
-    const int n = std::clamp(static_cast<int>(std::sqrt(area) / (1.5 * solid.cell())) + 1, 1, sampling.along);
+    const int n = std::clamp(static_cast<int>(std::sqrt(area) / (0.8 * solid.cell())) + 1, std::min(2, sampling.along),
+                             sampling.along);
     const double shift_u = random.uniform(), shift_v = random.uniform();
     const Vec3 ga = solid.to_field(a), gb = solid.to_field(b), gc = solid.to_field(c);
     const bool is_in_field = solid.is_in_field(ga) && solid.is_in_field(gb) && solid.is_in_field(gc);
@@ -48,7 +51,8 @@ void gather_forces(const Solid& solid, const std::vector<Vec3>& points, const st
         double u = (i + shift_u) * pitch, v = (j + shift_v) * pitch;
         if (u + v > 1) u = 1 - u, v = 1 - v;
         const Vec3 g = ga + u * along_u + v * along_v;
-        const double filled = is_in_field || solid.is_in_field(g) ? solid.field_at(g) : 0;
+        const double filled =
+            is_in_field || solid.is_in_field(g) ? (sampling.interpolates ? solid.field_at(g) : solid.filled_at(g)) : 0;
         filled_sum += filled;
         filled_u += u * filled;
         filled_v += v * filled;

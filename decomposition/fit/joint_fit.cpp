@@ -78,7 +78,7 @@ class JointFitter {
 
   /// Forces on all own points and, through the sections, on the free corners of the cuts.
   void gather(bool holds_off) {
-    const ForceSampling sampling{plan_.samples_along, plan_.rock_weight, steering_};
+    const ForceSampling sampling{plan_.samples_along, plan_.rock_weight, true, steering_};
     node_force_.assign(sections_.nodes().size(), {});
     node_share_.assign(sections_.nodes().size(), 0.0);
     node_spread_.assign(sections_.nodes().size(), {});

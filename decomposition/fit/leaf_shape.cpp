@@ -17,8 +17,9 @@ constexpr double kBulge = 1e-6;  // share of the diagonal by which a face on a c
 
 bool LeafShape::update(const Partition& partition, const Leaf& leaf, SectionPolygons& polygons, double diagonal) {
   cell = partition.planes_of(leaf.sides);
+  const std::vector<int> nodes_before = std::exchange(nodes, polygons.corners_of(leaf));
+  const std::size_t count_before = points.size();
   points = leaf.points;
-  nodes = polygons.corners_of(leaf);
   if (!leaf.dropped.empty())
     std::erase_if(nodes, [&](int node) {
       const Vec3& place = polygons.nodes()[static_cast<std::size_t>(node)].place;
@@ -42,7 +43,7 @@ bool LeafShape::update(const Partition& partition, const Leaf& leaf, SectionPoly
         on_cut[v] |= std::uint64_t{1} << (s % 64);
       }
   }
-  return hull.build(bent);
+  return points.size() == count_before && nodes == nodes_before ? hull.follow(bent) : hull.build(bent);
 }
 
 std::vector<std::vector<int>> LeafShape::faces() const {

@@ -42,10 +42,10 @@ class Fitter {
       const bool may_revive = plan_.revives && s < kReviveUntil * plan_.steps;
       if (may_revive && s % kReviveEvery == kReviveEvery - 1) revive_dead_vertices();
       gather_forces(
-          solid_, points_, hull_.faces(), {plan_.samples_along, 1, steering_}, random_,
+          solid_, points_, hull_.faces(), {plan_.samples_along, 1, false, steering_}, random_,
           [](const auto&) { return false; }, forces_);
       move(step);
-      if (!hull_.build(points_)) return {};
+      if (!hull_.follow(points_)) return {};
       steer_volume(s);
     }
     PartFit fit;
@@ -130,7 +130,7 @@ Vec3 project_into_cell(Vec3 p, const std::vector<Plane>& cell, const Vec3& centr
     for (const Plane& plane : cell)
       if (const double excess = plane.signed_distance(p) + margin; excess > 1e-3 * margin) {
         p -= excess * plane.normal;
-        if (pass == 0) farthest = std::fmax(farthest, excess);
+        if (pass == 0) farthest = std::max(farthest, excess);
         is_inside = false;
       }
     if (is_inside && norm(p - given) <= kLongestDetour * farthest) return p;
@@ -140,7 +140,7 @@ Vec3 project_into_cell(Vec3 p, const std::vector<Plane>& cell, const Vec3& centr
   double share = 1;  // of the way from the centre: certain to end in the cell
   for (const Plane& plane : cell) {
     const double depth = -plane.signed_distance(centre) - margin, reach = dot(plane.normal, p - centre);
-    if (reach > depth) share = std::fmin(share, std::fmax(0.0, depth) / reach);
+    if (reach > depth) share = std::min(share, std::max(0.0, depth) / reach);
   }
   return centre + share * (p - centre);
 }

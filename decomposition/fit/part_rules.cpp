@@ -15,11 +15,10 @@ namespace decomposition {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kCornerPenalty = 2;    // on the loss of a section's corner: it does not come back
-constexpr double kDroppedPenalty = 2;   // on the loss of another's corner: it leaves a ledge
-constexpr double kGapPenalty = 6;       // the same of a corner inside the solid: it leaves a gap there
-constexpr double kInside = 0.95;        // occupancy
-constexpr double kLargestLoss = 0.002;  // of a part's volume for one flaw, while other means are left
+constexpr double kCornerPenalty = 2;   // on the loss of a section's corner: it does not come back
+constexpr double kDroppedPenalty = 2;  // on the loss of another's corner: it leaves a ledge
+constexpr double kGapPenalty = 6;      // the same of a corner inside the solid: it leaves a gap there
+constexpr double kInside = 0.95;       // occupancy
 constexpr int kVolumeRounds = 12;
 constexpr double kLargestOffset = 0.1;  // of the volume correction / diagonal
 constexpr double kVolumeTolerance = 1e-6;
@@ -137,7 +136,7 @@ class LeafTrimmer {
       if (const double cost = loss(v); cost < least) least = cost, chosen = v;
     // Dear where only a vertex far from the flaw can go: another means must do.
     const bool is_forced = what_ == Trim::all || flaw.severity == 0;
-    if (chosen < 0 || (!is_forced && least > kLargestLoss * shape_.hull.volume())) return false;
+    if (chosen < 0 || (!is_forced && least > rules_.largest_loss * shape_.hull.volume())) return false;
     const SectionNode* node = node_of(chosen);
     if (!node)
       leaf_.points.erase(leaf_.points.begin() + chosen);

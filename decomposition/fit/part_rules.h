@@ -13,13 +13,14 @@ struct PartRules {
   int faces = 0;                 // at most, the triangles on a cut as one; 0: no cap
   double shortest_edge = 0.01;   // / size of the part, the largest distance of two of its vertices
   double narrowest_face = 0.02;  // / size of the part: width of a face, of a triangle its least height
+  double largest_loss = 0.002;   // of a part's volume for one flaw, while other means are left
 };
 
 /// What to leave out for the rules' sake.
 enum class Trim {
   caps,        // own points and corners of sections, until the caps hold
   own_points,  // own points alone, where these can help, against short edges and narrow faces, too
-  flaws,       // own points and corners of sections against all breaches, where these can help
+  flaws,       // own points and corners of sections against all breaches, where these can help at little loss
   all          // also corners that a part has from others, by itself: leaves a small ledge
 };
 

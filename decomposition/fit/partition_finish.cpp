@@ -21,7 +21,10 @@ constexpr double kSlack = 1e-7;                             // share of the diag
 constexpr double kInsideTolerance = 1e-5;                   // share of the diagonal: of edges through the surface
 constexpr int kMostPushes = 400;                            // until a bound is kept to the last point
 constexpr int kTrimEvery = 4;                               // rounds
-constexpr int kLastCycles = 8;                              // of trimming and pushing, until both hold
+constexpr int kLastCycles = 12;                             // of trimming, fitting on and pushing, until both hold
+constexpr int kCyclesAtLittleLoss = 3;                      // of them take only what costs little
+constexpr double kSpreadGrowth = 0.5, kLossGrowth = 1.5;    // of the spread and of what a flaw may cost, a cycle
+constexpr int kLastRoundsFrom = 64, kLastRoundsEvery = 4;   // of the rounds before, repeated in every cycle
 constexpr double kPushesToOneMore = 15;                     // before they grow by their first size
 constexpr double kLastMargin = 1.02;
 constexpr int kLastRounds = 4;  // of trimming and setting the volume
@@ -138,8 +141,10 @@ bool fit_to_bound(const Solid& solid, Partition& partition, const JointPlan& pla
   for (int cycle = 0; cycle < kLastCycles; ++cycle) {
     if (!push_to_bound(solid, partition, bound, points)) return false;
     if (count_flaws(solid, partition, rules) == 0) return true;
+    settling.spread = kSpread * (1 + kSpreadGrowth * cycle);
+    if (cycle >= kCyclesAtLittleLoss) stricter.largest_loss *= kLossGrowth;
     if (trim(solid, partition, stricter, Trim::flaws).empty()) return false;
-    for (int round = kBoundRounds - kTrimEvery; round < kBoundRounds; ++round)
+    for (int round = kLastRoundsFrom; round < kBoundRounds; round += kLastRoundsEvery)
       if (!approach(round)) return false;
   }
   return push_to_bound(solid, partition, bound, points);

@@ -143,6 +143,7 @@ bool SmallHull::build(const std::vector<Vec3>& given) {
   faces_.clear();
   normals_.clear();
   offsets_.clear();
+  is_linked_ = false;
   volume_ = 0;
   vertex_count_ = 0;
   is_vertex_.fill(0);
@@ -168,8 +169,8 @@ double hull_thickness(const SmallHull& hull, const std::vector<Vec3>& points) {
     if (!(length > 0)) continue;
     double deepest = 0;
     for (const auto& face : hull.faces())
-      for (const int v : face) deepest = std::fmax(deepest, dot(normal, pa - points[static_cast<std::size_t>(v)]));
-    thickness = std::fmin(thickness, deepest / length);
+      for (const int v : face) deepest = std::max(deepest, dot(normal, pa - points[static_cast<std::size_t>(v)]));
+    thickness = std::min(thickness, deepest / length);
   }
   return thickness;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "decomposition/fit/column_measure.h"
+#include "decomposition/search/column_hull.h"
 
 namespace decomposition {
 namespace {
@@ -25,7 +26,21 @@ struct SideScore {
   bool is_exact = false;
 };
 
-/// Misfit of a short fit of one side; not allowed if the side is too small, too thin or does not fit at all.
+/// A convex stand-in of one side, from a short fit or, where nothing may be left out, the hull.
+PartFit side_fit(const CutTrial& trial, const std::vector<Plane>& cell, const RegionMoments& region,
+                 const TrialPlan& how, std::uint64_t seed) {
+  if (trial.plan.encloses) return column_hull(clipped(trial.columns, cell.back()), how.directions, how.rounds);
+  FitPlan plan;
+  plan.vertices = how.vertices;
+  plan.steps = how.steps;
+  plan.first_step = how.first_step;
+  plan.last_step = how.last_step;
+  plan.samples_along = how.samples_along;
+  plan.seed = seed;
+  return fit_part(trial.solid, cell, region.centroid, start_points(trial.solid, region, cell, plan), plan);
+}
+
+/// Misfit of a stand-in of one side; not allowed if the side is too small, too thin or does not fit at all.
 SideScore score_side(const CutTrial& trial, const Plane& plane, const TrialPlan& how, std::uint64_t seed) {
   std::vector<Vec3> side;
   for (const Vec3& p : trial.points)
@@ -34,26 +49,15 @@ SideScore score_side(const CutTrial& trial, const Plane& plane, const TrialPlan&
   if (side.size() < 20 || volume < trial.plan.smallest_volume) return {};
   std::vector<Plane> cell = trial.cell.planes;
   cell.push_back(plane);
-  SideScore score;
-  std::vector<Vec3> points;
-  if (const auto exact = exact_piece(trial.solid, cell, {trial.plan.vertex_cap, trial.plan.face_cap})) {
-    score.is_exact = true;
-    points = exact->points;
-  } else {
-    const RegionMoments region = moments_of_points(side, volume);
-    FitPlan plan;
-    plan.vertices = how.vertices;
-    plan.steps = how.steps;
-    plan.first_step = how.first_step;
-    plan.last_step = how.last_step;
-    plan.samples_along = how.samples_along;
-    plan.seed = seed;
-    points = fit_part(trial.solid, cell, region.centroid, start_points(trial.solid, region, cell, plan), plan).points;
-  }
+  const auto exact = exact_piece(trial.solid, cell, {trial.plan.vertex_cap, trial.plan.face_cap});
+  const PartFit fit =
+      exact ? PartFit{exact->points, exact->volume} : side_fit(trial, cell, moments_of_points(side, volume), how, seed);
   SmallHull hull;
-  if (!hull.build(points) || hull_thickness(hull, points) < trial.plan.smallest_thickness) return {};
-  score.misfit = ColumnMeasure(trial.solid, how.stride)(points, hull.faces()).misfit();
-  return score;
+  if (!hull.build(fit.points) || hull_thickness(hull, fit.points) < trial.plan.smallest_thickness) return {};
+  // The hull holds all the rock of its side, whose volumes add up to the same for all cuts.
+  const double misfit =
+      trial.plan.encloses ? fit.volume : ColumnMeasure(trial.solid, how.stride)(fit.points, hull.faces()).misfit();
+  return {misfit, exact.has_value()};
 }
 
 }  // namespace
@@ -79,11 +83,7 @@ std::vector<Plane> candidate_planes(const CutTrial& trial, Random& random) {
   return planes;
 }
 
-Plane nudged_plane(const CutTrial& trial, const Plane& plane, double reach, Random& random) {
-  const double size = std::cbrt(trial.volume);
-  Vec3 middle;
-  for (const Vec3& p : trial.points) middle += p;
-  middle = (1.0 / static_cast<double>(trial.points.size())) * middle;
+Plane nudged_plane(const Vec3& middle, double size, const Plane& plane, double reach, Random& random) {
   const Vec3 pivot = middle - plane.signed_distance(middle) * plane.normal;
   Plane result;
   result.normal = normalized(plane.normal + (2 * reach) * random.unit_vector());

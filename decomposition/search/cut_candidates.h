@@ -15,9 +15,12 @@ struct CutTrial {
   const Cell& cell;
   const std::vector<Vec3>& points;  // spread over the piece
   double volume;                    // of the piece [m3]
+  std::vector<Stretch> columns{};   // of the piece, where stand-ins are to enclose it
 };
 
+/// A short fit, or a hull by support points (see column_hull).
 struct TrialPlan {
+  int directions, rounds;
   int vertices, steps, samples_along, stride;
   double first_step, last_step;  // share of the diagonal
 };
@@ -32,8 +35,8 @@ struct CutScore {
 /// Random directions times quantiles of the points along them, then the solid's own facet planes at re-entrant edges.
 std::vector<Plane> candidate_planes(const CutTrial& trial, Random& random);
 
-/// The cut moved and turned a little: `reach` is the largest move / size of the piece.
-Plane nudged_plane(const CutTrial& trial, const Plane& plane, double reach, Random& random);
+/// The cut moved and turned a little: `reach` is the largest move / size of the piece, which has that middle.
+Plane nudged_plane(const Vec3& middle, double size, const Plane& plane, double reach, Random& random);
 
 CutScore score_cut(const CutTrial& trial, const Plane& plane, const TrialPlan& fit, std::uint64_t seed);
 

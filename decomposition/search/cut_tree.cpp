@@ -6,17 +6,22 @@
 
 #include "decomposition/fit/column_measure.h"
 #include "decomposition/geometry/parallel_for.h"
+#include "decomposition/search/column_hull.h"
 #include "decomposition/search/cut_candidates.h"
 
 namespace decomposition {
 namespace {
 
 constexpr int kPointsAPiece = 2000;
-constexpr TrialPlan kCoarse{24, 14, 2, 4, 0.03, 0.006};
-constexpr TrialPlan kFine{32, 40, 3, 2, 0.02, 0.003};
+constexpr TrialPlan kCoarse{26, 0, 24, 7, 2, 4, 0.03, 0.006};
+constexpr TrialPlan kFine{26, 1, 32, 40, 3, 2, 0.02, 0.003};
 constexpr FitPlan kComparison{32, 120, 0.02, 0.0015, 4, 0, 1};
+constexpr int kDirections = 26, kSupportRounds = 2;
+constexpr int kColumnStride = 2;      // of the columns whose hulls are compared
 constexpr double kFirstReach = 0.06;  // of polishing moves, halved every round
 constexpr int kMovesARound = 12;
+constexpr int kPolishingRounds = 4, kPolishingMoves = 6;  // of hulls, a cut
+constexpr double kPolishingReach = 0.05, kPolishingDecay = 0.6;
 constexpr double kSmallestGain = 1e-4;   // of the solid's volume: below, a cut is noise
 constexpr double kDistinctAngle = 0.97;  // cosine: two candidates nearer than this and ...
 constexpr double kDistinctShift = 0.05;  // ... with offsets nearer than this share of the piece's size are one
@@ -36,6 +41,15 @@ std::vector<CutScore> distinct(const std::vector<CutScore>& sorted, std::size_t 
   return chosen;
 }
 
+/// The cell with its cuts in new places near by.
+Cell placed(Cell cell, const std::vector<Plane>& cuts) {
+  for (std::size_t k = 0; k < cell.planes.size(); ++k) {
+    const Plane& moved = cuts[static_cast<std::size_t>(cell.cuts[k])];
+    cell.planes[k] = dot(cell.planes[k].normal, moved.normal) > 0 ? moved : moved.reversed();
+  }
+  return cell;
+}
+
 }  // namespace
 
 /// Convex stand-in of the solid in a cell, and its error.
@@ -50,6 +64,11 @@ Piece CutTree::make_piece(Cell cell, std::uint64_t seed) const {
     piece.is_exact = true;
     piece.fit = {exact->points, exact->volume};
     piece.region.volume = exact->volume;
+    return piece;
+  }
+  if (plan_.encloses) {
+    piece.fit = column_hull(solid_.stretches_inside(piece.cell.planes, kColumnStride), kDirections, kSupportRounds);
+    piece.error = piece.fit.volume - piece.region.volume;
     return piece;
   }
   FitPlan plan = kComparison;
@@ -79,7 +98,8 @@ std::optional<CutTree::Cut> CutTree::best_cut(const Piece& piece, std::uint64_t 
   if (piece.is_exact || piece.error < kSmallestGain * solid_.volume()) return std::nullopt;
   Random random(seed);
   const std::vector<Vec3> points = solid_.points_inside(piece.cell.planes, kPointsAPiece, random);
-  const CutTrial trial{solid_, plan_, piece.cell, points, piece.region.volume};
+  CutTrial trial{solid_, plan_, piece.cell, points, piece.region.volume};
+  if (plan_.encloses) trial.columns = solid_.stretches_inside(piece.cell.planes, kColumnStride);
   const auto score_all = [&](const std::vector<Plane>& planes, const TrialPlan& fit) {
     std::vector<CutScore> scores(planes.size());
     // The same seed for all: candidates are compared under common random numbers.
@@ -104,7 +124,8 @@ std::optional<CutTree::Cut> CutTree::best_cut(const Piece& piece, std::uint64_t 
   for (int round = 0; round < plan_.polishing_rounds && !best.front().is_exact; ++round, reach /= 2) {
     std::vector<Plane> planes{best.front().plane};
     for (int move = 0; move < kMovesARound; ++move)
-      planes.push_back(nudged_plane(trial, best[move % 3 == 2 && best.size() > 1 ? 1 : 0].plane, reach, random));
+      planes.push_back(nudged_plane(piece.region.centroid, std::cbrt(piece.region.volume),
+                                    best[move % 3 == 2 && best.size() > 1 ? 1 : 0].plane, reach, random));
     best = score_all(planes, kFine);
   }
   Cut cut;
@@ -145,18 +166,59 @@ void CutTree::grow(int count) {
   }
 }
 
+/// Sum of the hulls of all leaves with these cuts; those that do not lie at `cut` are taken from `by_node` if known
+/// there, the others are put there.
+double CutTree::hull_volume(const std::vector<Plane>& cuts, int cut, std::vector<double>& by_node) const {
+  double sum = 0;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    if (nodes_[n].split >= 0) continue;
+    const Cell& cell = nodes_[n].piece.cell;
+    if (std::find(cell.cuts.begin(), cell.cuts.end(), cut) != cell.cuts.end() || by_node[n] < 0) {
+      std::vector<Stretch> columns = solid_.stretches_inside(placed(cell, cuts).planes, kColumnStride);
+      const PartFit fit = column_hull(columns, kDirections, kSupportRounds);
+      SmallHull hull;
+      double volume = 0;
+      for (const Stretch& s : columns) volume += s.high - s.low;
+      volume *= kColumnStride * kColumnStride * solid_.rays().cell * solid_.rays().cell;
+      const bool is_allowed = fit.is_valid() && volume >= plan_.smallest_volume && hull.build(fit.points) &&
+                              hull_thickness(hull, fit.points) >= plan_.smallest_thickness;
+      by_node[n] = is_allowed ? fit.volume : std::numeric_limits<double>::infinity();
+    }
+    sum += by_node[n];
+  }
+  return sum;
+}
+
+void CutTree::polish_hulls() {
+  std::vector<Plane> cuts = cuts_;
+  std::vector<double> by_node(nodes_.size(), -1.0);
+  double least = hull_volume(cuts, -1, by_node);
+  Random random(sub_seed(plan_.seed, 7000000 + cuts.size()));
+  double reach = kPolishingReach;
+  for (int round = 0; round < kPolishingRounds; ++round, reach *= kPolishingDecay)
+    for (std::size_t c = 0; c < cuts.size(); ++c) {
+      const Piece& divided = nodes_[static_cast<std::size_t>(divided_[c])].piece;
+      for (int move = 0; move < kPolishingMoves; ++move) {
+        std::vector<Plane> moved = cuts;
+        moved[c] = nudged_plane(divided.region.centroid, std::cbrt(divided.region.volume), cuts[c], reach, random);
+        std::vector<double> volumes = by_node;
+        const double volume = hull_volume(moved, static_cast<int>(c), volumes);
+        if (!(volume < least)) continue;
+        least = volume;
+        cuts = std::move(moved);
+        by_node = std::move(volumes);
+      }
+    }
+  move_cuts(cuts);
+}
+
 void CutTree::move_cuts(const std::vector<Plane>& cuts) {
   cuts_ = cuts;
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     Node& node = nodes_[n];
-    Cell& cell = node.piece.cell;
-    for (std::size_t k = 0; k < cell.planes.size(); ++k) {
-      const Plane& moved = cuts[static_cast<std::size_t>(cell.cuts[k])];
-      // The first half of a cut is made before the second.
-      cell.planes[k] = dot(cell.planes[k].normal, moved.normal) > 0 ? moved : moved.reversed();
-    }
+    node.piece.cell = placed(node.piece.cell, cuts);
     if (node.split >= 0) continue;
-    node.piece = make_piece(cell, sub_seed(plan_.seed, 5000000 + n));
+    node.piece = make_piece(node.piece.cell, sub_seed(plan_.seed, 5000000 + n));
     node.was_searched = false;
     node.best.reset();
   }

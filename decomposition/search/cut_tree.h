@@ -23,6 +23,7 @@ struct SearchPlan {
   double smallest_thickness = 0;  // of a piece [m]
   std::uint64_t seed = 1;
   int threads = 1;
+  bool encloses = false;  // stand-ins leave nothing out: hulls instead of fits
 };
 
 /// Intersection of half-spaces that bounds a piece: one plane per cut on the way down the tree.
@@ -55,6 +56,8 @@ class CutTree {
 
   /// Cuts until there are `count` pieces or no cut helps.
   void grow(int count);
+  /// Moves the cuts a little, one at a time, as long as that takes volume off the hulls of the pieces.
+  void polish_hulls();
   /// Puts the cuts in these places; pieces that are not cut yet are fitted again.
   void move_cuts(const std::vector<Plane>& cuts);
   /// Numbers of the pieces after the first `count` - 1 cuts (fewer if the tree has fewer).
@@ -85,6 +88,7 @@ class CutTree {
   bool is_allowed(const Piece& piece) const;
 
   Piece make_piece(Cell cell, std::uint64_t seed) const;
+  double hull_volume(const std::vector<Plane>& cuts, int cut, std::vector<double>& by_node) const;
 
   const Solid& solid_;
   SearchPlan plan_;

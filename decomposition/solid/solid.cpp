@@ -17,17 +17,15 @@ constexpr double kCoplanar = 1e-10;      // share of the diagonal: triangles thi
 constexpr double kReentrant = 1e-6;  // share of the diagonal: a neighbour this far above a face makes a re-entrant edge
 constexpr int kPadding = 3;          // empty cells around the solid, so that look-ups near it need no bounds
 
-/// Clips the line (x, y, z in range) by the half-spaces of a cell.
-ZInterval clip_to_cell(const std::vector<Plane>& cell, double x, double y, ZInterval range) {
-  for (const Plane& plane : cell) {
-    const double rest = plane.offset - plane.normal.x * x - plane.normal.y * y;
-    if (plane.normal.z > 0)
-      range.high = std::fmin(range.high, rest / plane.normal.z);
-    else if (plane.normal.z < 0)
-      range.low = std::fmax(range.low, rest / plane.normal.z);
-    else if (rest < 0)
-      range.high = range.low;
-  }
+/// Clips the line (x, y, z in range) by a half-space.
+ZInterval clip_by_plane(const Plane& plane, double x, double y, ZInterval range) {
+  const double rest = plane.offset - plane.normal.x * x - plane.normal.y * y;
+  if (plane.normal.z > 0)
+    range.high = std::min(range.high, rest / plane.normal.z);
+  else if (plane.normal.z < 0)
+    range.low = std::max(range.low, rest / plane.normal.z);
+  else if (rest < 0)
+    range.high = range.low;
   return range;
 }
 
@@ -113,36 +111,40 @@ void Solid::fill_field() {
     field_[c] = static_cast<std::uint8_t>(std::min(255.0f, 255.0f * filled[c] + 0.5f));
 }
 
-double Solid::volume_inside(const std::vector<Plane>& cell) const {
-  double length = 0;
-  for (int j = 0; j < rays_.ny; ++j)
-    for (int i = 0; i < rays_.nx; ++i) {
+std::vector<Stretch> Solid::stretches_inside(const std::vector<Plane>& cell, int stride) const {
+  std::vector<Stretch> stretches;
+  for (int j = 0; j < rays_.ny; j += stride)
+    for (int i = 0; i < rays_.nx; i += stride) {
       const std::size_t ray = rays_.index(i, j);
       for (std::size_t k = columns_.first[ray]; k < columns_.first[ray + 1]; ++k) {
-        const ZInterval part = clip_to_cell(cell, rays_.x(i, j), rays_.y(i, j), columns_.intervals[k]);
-        length += std::fmax(0.0, part.high - part.low);
+        const double x = rays_.x(i, j), y = rays_.y(i, j);
+        ZInterval part = columns_.intervals[k];
+        for (const Plane& plane : cell) part = clip_by_plane(plane, x, y, part);
+        if (part.high > part.low) stretches.push_back({x, y, part.low, part.high});
       }
     }
+  return stretches;
+}
+
+std::vector<Stretch> clipped(const std::vector<Stretch>& stretches, const Plane& plane) {
+  std::vector<Stretch> kept;
+  for (const Stretch& s : stretches) {
+    const ZInterval part = clip_by_plane(plane, s.x, s.y, {s.low, s.high});
+    if (part.high > part.low) kept.push_back({s.x, s.y, part.low, part.high});
+  }
+  return kept;
+}
+
+double Solid::volume_inside(const std::vector<Plane>& cell) const {
+  double length = 0;
+  for (const Stretch& s : stretches_inside(cell)) length += s.high - s.low;
   return length * rays_.cell * rays_.cell;
 }
 
 std::vector<Vec3> Solid::points_inside(const std::vector<Plane>& cell, int count, Random& random) const {
-  struct Stretch {
-    double x, y, low, high;
-  };
-  std::vector<Stretch> stretches;
+  const std::vector<Stretch> stretches = stretches_inside(cell);
   double length = 0;
-  for (int j = 0; j < rays_.ny; ++j)
-    for (int i = 0; i < rays_.nx; ++i) {
-      const std::size_t ray = rays_.index(i, j);
-      for (std::size_t k = columns_.first[ray]; k < columns_.first[ray + 1]; ++k) {
-        const double x = rays_.x(i, j), y = rays_.y(i, j);
-        const ZInterval part = clip_to_cell(cell, x, y, columns_.intervals[k]);
-        if (part.high <= part.low) continue;
-        stretches.push_back({x, y, part.low, part.high});
-        length += part.high - part.low;
-      }
-    }
+  for (const Stretch& s : stretches) length += s.high - s.low;
   // Equal steps of cumulative length with a random start: stratified, in proportion to the volume.
   std::vector<Vec3> points;
   const double step = length / count;

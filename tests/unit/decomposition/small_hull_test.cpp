@@ -36,6 +36,29 @@ TEST(SmallHull, AgreesWithExactPredicatesOnRandomPoints) {
   }
 }
 
+TEST(SmallHull, FollowsMovingPointsAsIfBuiltAnew) {
+  Random random(3);
+  for (const double step : {0.003, 0.03, 0.3}) {
+    SmallHull followed, built;
+    std::vector<Vec3> points;
+    for (int i = 0; i < 48; ++i) points.push_back(random.unit_vector());
+    ASSERT_TRUE(followed.build(points));
+    for (int move = 0; move < 300; ++move) {
+      // About a shell, so that points fall inside and come out again.
+      for (Vec3& p : points) {
+        p += step * random.unit_vector();
+        p = ((0.9 * norm(p) + 0.1) / norm(p)) * p;
+      }
+      ASSERT_TRUE(followed.follow(points));
+      ASSERT_TRUE(built.build(points));
+      EXPECT_EQ(followed.vertex_count(), built.vertex_count());
+      EXPECT_NEAR(followed.volume(), built.volume(), 1e-12);  // rounding of sums of about 100 terms of order one
+      for (std::size_t v = 0; v < points.size(); ++v)
+        EXPECT_EQ(followed.is_vertex(static_cast<int>(v)), built.is_vertex(static_cast<int>(v)));
+    }
+  }
+}
+
 TEST(SmallHull, RefusesFlatPoints) {
   SmallHull hull;
   EXPECT_FALSE(hull.build({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.3, 0.2, 0}}));
