@@ -2,6 +2,7 @@
 #include "decomposition/decomposition_quality.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "catalog/mass_properties.h"
@@ -132,6 +133,9 @@ catalog::Matrix3 difference(catalog::Matrix3 a, const catalog::Matrix3& b) {
   return a;
 }
 
+/// What convexity is told to: far above the rounding of its sums.
+constexpr double kConvexityUnit = 1e-12;
+
 double hull_volume(const std::vector<Vec3>& points) {
   double six_volumes = 0;
   for (const auto& [a, b, c] : hull_triangles(points))
@@ -185,7 +189,10 @@ catalog::DecompositionError ErrorMeasurement::operator()(const std::vector<catal
   error.centre_error = norm(centre(moments) - centre(mesh_moments)) / diagonal;
   const catalog::Matrix3 inertia = catalog::inertia_tensor(mesh_moments);
   error.inertia_error = norm_of(difference(catalog::inertia_tensor(moments), inertia)) / norm_of(inertia);
-  error.convexity_error = moments.volume / (1 + error.overlap) / hull_volume(corners) - convexity;
+  // Facets of more than three corners come in triangles that no order of sums is the same for.
+  error.convexity_error =
+      std::round((moments.volume / (1 + error.overlap) / hull_volume(corners) - convexity) / kConvexityUnit) *
+      kConvexityUnit;
 
   Random random(sub_seed(options.seed, kPartStream));
   const std::vector<double> from_mesh = distances_to_union(mesh_points, parts);

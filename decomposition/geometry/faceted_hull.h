@@ -10,7 +10,7 @@
 namespace decomposition {
 
 /// Triangles of the convex hull of a set of points with exact predicates (CGAL): n_faces x 3 indices into `points`,
-/// counter-clockwise seen from outside. Empty if the points are flat.
+/// counter-clockwise seen from outside, each from its least index, in ascending order. Empty if the points are flat.
 std::vector<std::array<int, 3>> hull_triangles(const std::vector<Vec3>& points);
 
 /// A planar convex polygon of a hull.

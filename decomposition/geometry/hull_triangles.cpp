@@ -3,6 +3,7 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 
+#include <algorithm>
 #include <map>
 
 #include "decomposition/geometry/faceted_hull.h"
@@ -29,8 +30,11 @@ std::vector<std::array<int, 3>> hull_triangles(const std::vector<Vec3>& points) 
       const Point& p = mesh.point(vertex);
       if (corner < 3) triangle[corner++] = index.at({p.x(), p.y(), p.z()});
     }
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
     triangles.push_back(triangle);
   }
+  // The library goes through its facets in the order of their addresses.
+  std::sort(triangles.begin(), triangles.end());
   return triangles;
 }
 
