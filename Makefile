@@ -61,9 +61,14 @@ accuracy: install  ## Write docs/accuracy.md: every validation table and bench i
 	  cmake --preset $$preset && cmake --build --preset $$preset --parallel $(JOBS) || exit; done
 	workflows/accuracy_report.sh build-dem-cpu build-dem-cpu-mixed
 
-study: install $(BUILD)/CMakeCache.txt  ## How many parts a rock needs: SCAN=rock.stl UNIT=mm (two hours); writes study/parts_per_rock.md
+ifeq ($(and $(SCAN),$(UNIT)),)
+study:
+	@echo 'study: state the scan and its length unit, such as make study SCAN=rock.stl UNIT=mm' >&2; exit 2
+else
+study: install $(BUILD)/CMakeCache.txt  ## How many parts a rock needs: SCAN=rock.stl UNIT=mm (hours); writes study/rock/parts_per_rock.md
 	cmake --build $(BUILD) --parallel $(JOBS) --target $(STAGES) talus-bench
-	SCAN="$(SCAN)" UNIT="$(or $(UNIT),m)" BUILD=$(BUILD) workflows/studies/parts_per_rock.sh
+	SCAN="$(SCAN)" UNIT="$(UNIT)" BUILD=$(BUILD) workflows/studies/parts_per_rock.sh
+endif
 
 gpu-check: install  ## On a GPU machine: build the CUDA engine with its tests and run them
 	cmake --preset dem-cuda -DCMAKE_CUDA_ARCHITECTURES=native
@@ -75,7 +80,7 @@ exact-pairs: $(BUILD)/CMakeCache.txt  ## A million random pairs against exact ar
 	TALUS_EXACT_PAIRS=$(or $(PAIRS),1000000) TALUS_EXACT_TABLE=$(BUILD)/exact_pairs.md $(BUILD)/tests/dem_exact_test
 	cat $(BUILD)/exact_pairs.md
 
-large-mesh: $(BUILD)/CMakeCache.txt  ## Memory and time of decomposing 2,000,000 faces (10 CPU seconds); FACES=number
+large-mesh: install $(BUILD)/CMakeCache.txt  ## Memory and time of decomposing 2,000,000 faces (10 CPU seconds); FACES=number
 	cmake --build $(BUILD) --parallel $(JOBS) --target test_large_mesh
 	TALUS_LARGE_FACES=$(or $(FACES),2000000) $(BUILD)/tests/test_large_mesh
 
@@ -83,7 +88,7 @@ ifeq ($(SCANS),)
 decomposition:
 	@echo 'decomposition: state where the scans lie, such as make decomposition SCANS=../shared/data/real' >&2; exit 2
 else
-decomposition: $(BUILD)/CMakeCache.txt  ## Decomposition of real scans against its goals; SCANS=folder; writes docs/results/decomposition.md
+decomposition: install $(BUILD)/CMakeCache.txt  ## Decomposition of real scans against its goals; SCANS=folder; writes docs/results/decomposition.md
 	cmake --build $(BUILD) --parallel $(JOBS) --target talus talus-bench
 	$(BUILD)/bin/talus bench decomposition --scans "$(SCANS)" --out docs/results || [ $$? -eq 4 ]
 endif

@@ -60,6 +60,22 @@ std::string provenance_json(DecompositionOptions options, int parts_asked, const
          ",\"most_faces\":" + std::to_string(measured.most_faces) + "}}";
 }
 
+/// Parts that stand for nothing of the mesh are no level of detail: those of needles and plates thinner than the fit
+/// can follow.
+void refuse_misfit(const catalog::LevelOfDetail& level) {
+  constexpr double kLargestDifference = 1, kLargestVolumeError = 0.05;  // of the mesh's volume
+  const bool is_volume_off =
+      level.key.mode == FitMode::volume_true && std::abs(level.error.volume_error) > kLargestVolumeError;
+  if (level.error.symmetric_difference < kLargestDifference && !is_volume_off) return;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      "mesh: its %d parts differ from it by %.0f %% of its volume, their volume by %.1f %%: it is too thin for "
+      "the fit; ask for another number of parts, more effort or another seed",
+      level.key.parts_asked, 100 * level.error.symmetric_difference, 100 * level.error.volume_error);
+  throw catalog::InputError(text);
+}
+
 catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, LevelSearch& search, int parts_asked,
                                   const DecompositionOptions& options) {
   FoundLevel found = search.find(parts_asked);
@@ -74,6 +90,7 @@ catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, LevelSearch& 
   }
   level.mass_properties = catalog::mass_properties(moments);
   level.error = measure(level.parts);
+  refuse_misfit(level);
   LevelFigures measured = figures(level.parts);
   measured.ledge_area = found.ledge_area;
   level.provenance.options = provenance_json(options, parts_asked, measured);

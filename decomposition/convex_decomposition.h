@@ -67,7 +67,8 @@ struct LevelFigures {
 /// Surfaces that cut one another are refused if that puts more than 0.1 % of the volume in doubt.
 /// Provenance: `options` holds the options, the LevelFigures and what was found in the mesh as JSON,
 /// {"options": {...}, "measured": {...}, "mesh": {...}}; the caller fills in the rest.
-/// Throws catalog::InputError for a mesh that bounds no solid and for options out of range.
+/// Throws catalog::InputError for a mesh that bounds no solid, for options out of range, and where the parts miss the
+/// mesh: by all its volume, or volume-true by 5 % of it (bodies 20 times as long as thick, and thinner).
 catalog::LevelOfDetail decompose(const catalog::TriangleMesh& mesh, const DecompositionOptions& options = {});
 
 /// Several levels at once, sharing one search. `options.parts` is not used. Each level is the same as decompose() would

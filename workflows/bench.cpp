@@ -8,6 +8,7 @@
 
 #include "catalog/input_error.h"
 #include "catalog/nearest_word.h"
+#include "catalog/shape_catalog.h"
 #include "workflows/atomic_file.h"
 #include "workflows/bench/bench_registry.h"
 #include "workflows/bench/bench_report.h"
@@ -128,16 +129,36 @@ fs::path case_file(const Options& options, const BenchCase& bench_case) {
   return fs::path(options.json.string() + ".cases") / (name + ".json");
 }
 
+/// What a case that is kept must have been measured with.
+std::string made_with(const Options& options, const BenchCase& bench_case) {
+  std::string text = tool_version() + ": " + command_of(options, bench_case);
+  if (!options.catalogue.empty()) text += ", catalogue " + catalog::sha256_of_file(options.catalogue);
+  if (!options.scans.empty()) text += ", scans in " + fs::absolute(options.scans).lexically_normal().string();
+  return text;
+}
+
 CaseResult measure_or_keep(const BenchCase& bench_case, const Options& options) {
   const fs::path file = case_file(options, bench_case);
+  if (file.empty()) return bench_case.measure();
+  const std::string with = made_with(options, bench_case);
   if (options.resumes)
-    if (std::optional<CaseResult> kept = read_case(file)) return std::move(*kept);
+    if (std::optional<CaseResult> kept = read_case(file, with)) return std::move(*kept);
   CaseResult result = bench_case.measure();
-  if (!file.empty()) {
-    fs::create_directories(file.parent_path());
-    write_case(file, result);
-  }
+  write_case(file, with, result);
   return result;
+}
+
+/// The folders that results go to, before hours are spent on them.
+void make_folders(const Options& options) {
+  if (options.json.empty()) return;
+  for (const fs::path& folder :
+       {options.out, fs::absolute(options.json).parent_path(), fs::path(options.json.string() + ".cases")}) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error || !fs::is_directory(folder))
+      throw catalog::InputError(folder.string() + ": is no folder and cannot be made one (" +
+                                (error ? error.message() : "a file has its name") + "); give another --json or --out");
+  }
 }
 
 Measured measure(const std::vector<BenchCase>& cases, const Options& options) {
@@ -156,8 +177,6 @@ Measured measure(const std::vector<BenchCase>& cases, const Options& options) {
 
 void write_files(const Bench& bench, const BenchPlan& plan, const Measured& measured, const Options& options) {
   const std::string stem = options.json.stem().string();
-  fs::create_directories(options.out);
-  fs::create_directories(fs::absolute(options.json).parent_path());
   write_whole(options.json, json_lines(measured.figures));
   std::string page = plan.page ? plan.page(measured.figures)
                                : markdown_table("talus bench " + bench.name + ": " + bench.summary, measured.figures);
@@ -172,7 +191,9 @@ void write_files(const Bench& bench, const BenchPlan& plan, const Measured& meas
 int run_bench(const Options& options) {
   const Bench& bench = bench_named(options.bench);
   const BenchPlan plan = bench.plan(bench_options(options));
-  const Measured measured = measure(chosen_cases(plan, options), options);
+  const std::vector<BenchCase> cases = chosen_cases(plan, options);
+  make_folders(options);
+  const Measured measured = measure(cases, options);
   std::fputs((plan.page ? plan.page(measured.figures) : text_table(measured.figures)).c_str(), stdout);
   if (!options.json.empty()) write_files(bench, plan, measured, options);
   for (const ReportedFigure& reported : measured.figures)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // talus-decompose: convex parts at several levels of detail for the shapes of a catalogue.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -25,6 +26,16 @@ struct CommandLine {
   DecomposeBatchOptions batch;
   bool json = false;
 };
+
+/// A range lets what is not a number through.
+CLI::Validator finite_number() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) && std::isfinite(value) ? std::string() : text + " is no number";
+      },
+      "");
+}
 
 void declare_options(CLI::App& app, CommandLine& line) {
   app.name("talus decompose");
@@ -61,11 +72,11 @@ void declare_options(CLI::App& app, CommandLine& line) {
       ->transform(CLI::CheckedTransformer(bodies));
   app.add_option("--time-budget", quality.time_budget,
                  "CPU seconds a shape for looking for cuts; the result then depends on the machine; 0: by --effort")
-      ->check(CLI::Range(0.0, 1e6));
+      ->check(finite_number() & CLI::Range(0.0, 1e6));
   app.add_option("--seed", quality.seed, "of the random numbers; the same seed gives the same bytes")
       ->capture_default_str();
   app.add_option("--effort", quality.effort, "more looks for better cuts, time in proportion")
-      ->check(CLI::Range(0.1, 100.0))
+      ->check(finite_number() & CLI::Range(0.1, 100.0))
       ->capture_default_str();
   app.add_option("--threads", quality.threads, "0: as many as the machine has")->check(CLI::Range(0, 1024));
   app.add_option("--select", line.batch.select, "only the shapes of this query, see talus catalog query --help");

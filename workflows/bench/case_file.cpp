@@ -45,20 +45,24 @@ PlotCurve curve_of(const Json& json) {
 
 }  // namespace
 
-void write_case(const std::filesystem::path& file, const CaseResult& result) {
+void write_case(const std::filesystem::path& file, const std::string& made_with, const CaseResult& result) {
   Json figures = Json::array(), curves = Json::array();
   for (const Figure& figure : result.figures) figures.push_back(figure_json(figure));
   for (const PlotCurve& curve : result.curves) curves.push_back(curve_json(curve));
-  write_whole(file, Json{{"figures", figures}, {"curves", curves}}.dump(1) + "\n");
+  write_whole(file, Json{{"made_with", made_with}, {"figures", figures}, {"curves", curves}}.dump(1) + "\n");
 }
 
-std::optional<CaseResult> read_case(const std::filesystem::path& file) {
+std::optional<CaseResult> read_case(const std::filesystem::path& file, const std::string& made_with) {
   const std::optional<std::string> text = read_whole(file);
   if (!text) return std::nullopt;
   try {
     const Json json = Json::parse(*text);
+    if (json.at("made_with") != made_with) return std::nullopt;
     CaseResult result;
-    for (const Json& figure : json.at("figures")) result.figures.push_back(figure_of(figure));
+    for (const Json& figure : json.at("figures")) {
+      result.figures.push_back(figure_of(figure));
+      if (!result.figures.back().value) return std::nullopt;
+    }
     for (const Json& curve : json.at("curves")) result.curves.push_back(curve_of(curve));
     return result;
   } catch (const nlohmann::json::exception&) {

@@ -3,14 +3,15 @@
 # How many parts does a rock need? Decomposes one scan at every level of detail, pours, tilts and empties the same bed of
 # 300 such rocks at each, and writes a page with the table and the plots. Called by `make study`; what was stopped goes on.
 #   SCAN   the scan, a closed mesh or a cloud           (needed)
-#   UNIT   its length unit                              (m)
+#   UNIT   its length unit                              (needed)
 #   BUILD  build folder with the executables            (build)
-#   STUDY  folder for catalogue and figures             (study)
+#   STUDY  folder for catalogue and figures             (study/ and the scan's name)
 #   PAGE   page to write; its plots go beside it        (STUDY/parts_per_rock.md)
 set -eu
 
 : "${SCAN:?make study SCAN=rock.stl UNIT=mm: no SCAN given}"
-: "${UNIT:=m}" "${BUILD:=build}" "${STUDY:=study}"
+: "${UNIT:?make study SCAN=$SCAN UNIT=mm: no UNIT given}" "${BUILD:=build}"
+: "${STUDY:=study/$(basename "${SCAN%.*}")}"
 : "${PAGE:=$STUDY/parts_per_rock.md}"
 talus=$BUILD/bin/talus
 parts=1,2,4,8,16,32

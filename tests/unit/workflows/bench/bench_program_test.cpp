@@ -151,11 +151,16 @@ TEST(BenchProgram, AStoppedBenchGoesOnWithTheCasesItHas) {
   EXPECT_NE(read_bytes(folder / "o.md").find("| O1 | kept |"), std::string::npos);
   ASSERT_EQ(run_bench(folder, "overlap --case O1 --json " + json).status, 0) << "without --resume all is measured";
   EXPECT_EQ(read_bytes(folder / "o.md"), table);
+  EXPECT_EQ(run_bench(folder, "overlap --resume --threads 1 --case O1 --json " + json).status, 0);
+  EXPECT_NE(read_bytes(folder / kept).find("--threads 1"), std::string::npos) << "other options: measured anew";
   test_support::write_bytes(folder / kept, "{");
   const Ended damaged = run_bench(folder, "overlap --resume --case O1 --json " + json);
   EXPECT_EQ(damaged.status, 3);
   EXPECT_NE(damaged.error.find("O1.json: holds no case of a bench; delete it"), std::string::npos) << damaged.error;
   EXPECT_EQ(run_bench(folder, "overlap --resume --case O1").status, 2) << "nothing to go on from";
+  const Ended astray = run_bench(folder, "overlap --case O1 --json '" + (folder / "o.md/x.json").string() + "'");
+  EXPECT_EQ(astray.status, 3);
+  EXPECT_NE(astray.error.find("o.md: is no folder"), std::string::npos) << astray.error;
 }
 
 TEST(BenchProgram, AMissedGoalEndsWithStatus4) {
