@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "catalog/input_error.h"
+#include "workflows/batch_refusal.h"
 #include "workflows/error_json.h"
 #include "workflows/in_order.h"
 #include "workflows/stage_tool.h"
@@ -118,19 +119,6 @@ void make_levels(const catalog::TriangleMesh& mesh, const DecomposeBatchOptions&
   }
 }
 
-/// Why the levels of a shape cannot be made; empty if they were.
-std::string refusal(const std::function<void()>& work) {
-  try {
-    work();
-    return "";
-  } catch (const catalog::InputError& error) {
-    return error.what();
-  } catch (const std::logic_error& error) {
-    // CGAL reports a geometry it cannot handle this way: this shape is lost, the batch is not.
-    return std::string("mesh: the geometry library gave up (") + error.what() + "); clean the scan";
-  }
-}
-
 std::vector<catalog::ShapeId> selected(const catalog::ShapeCatalog& shapes, const DecomposeBatchOptions& options) {
   std::vector<catalog::ShapeId> ids;
   for (const std::string& name : options.names)
@@ -185,7 +173,7 @@ DecomposeBatchResult decompose_shapes(catalog::ShapeCatalog& shapes, const Decom
     std::unique_lock lock(catalog_use);
     const catalog::TriangleMesh mesh = shapes.shape(work.id).mesh;
     lock.unlock();
-    return refusal([&] { make_levels(mesh, options, share.threads_each, work); });
+    return refusal_of("mesh", [&] { make_levels(mesh, options, share.threads_each, work); });
   };
   batch.take = [&](int k, std::string&& reason) {
     ShapeWork& work = *lacking[static_cast<std::size_t>(k)];

@@ -12,6 +12,7 @@
 
 #include "catalog/input_error.h"
 #include "shape_pipeline/scan_file.h"
+#include "workflows/batch_refusal.h"
 #include "workflows/in_order.h"
 #include "workflows/units.h"
 
@@ -107,19 +108,6 @@ std::string first_reason(const DigitizedScan& outcome) {
   return text;
 }
 
-/// Why `work` refuses the scan; empty if it does not.
-std::string refusal(const fs::path& scan, const std::function<void()>& work) {
-  try {
-    work();
-    return "";
-  } catch (const catalog::InputError& error) {
-    return error.what();
-  } catch (const std::logic_error& error) {
-    // CGAL reports a geometry it cannot handle this way: this particle is lost, the batch is not.
-    return scan.string() + ": the geometry library gave up (" + error.what() + "); clean the scan";
-  }
-}
-
 bool is_same(const catalog::Provenance& a, const catalog::Provenance& b) {
   return a.source_sha256 == b.source_sha256 && a.options == b.options && a.tool_version == b.tool_version;
 }
@@ -161,7 +149,7 @@ DigitizeBatch::Prepared DigitizeBatch::prepare(std::size_t s) {
   const auto known = truths_.find(scan.filename().string());
   const auto truth = known == truths_.end() ? std::nullopt : std::optional(known->second);
   result.provenance.options = options_text(options_.settings, truth);
-  result.reason = refusal(scan, [&] { result.provenance.source_sha256 = catalog::sha256_of_file(scan); });
+  result.reason = refusal_of(scan.string(), [&] { result.provenance.source_sha256 = catalog::sha256_of_file(scan); });
   if (result.reason.empty()) {
     if (const auto id = catalog_->find(names_[s]); id && is_same(catalog_->shape(*id).provenance, result.provenance)) {
       result.status = "skipped";
@@ -169,7 +157,8 @@ DigitizeBatch::Prepared DigitizeBatch::prepare(std::size_t s) {
     }
   }
   if (result.reason.empty())
-    result.reason = refusal(scan, [&] { result.shape.emplace(shape_pipeline::digitize(scan, digitization_, truth)); });
+    result.reason =
+        refusal_of(scan.string(), [&] { result.shape.emplace(shape_pipeline::digitize(scan, digitization_, truth)); });
   result.status = result.reason.empty() ? "stored" : "rejected";
   return result;
 }

@@ -80,6 +80,12 @@ TEST(DecomposeFolder, GoesOnPastBadScansAndGivesTheSameBytesForAnyNumberOfThread
   }
 }
 
+TEST(DecomposeFolder, AnOptionThatIsNoNumberIsAUsageError) {
+  const TemporaryFolder folder;
+  for (const char* option : {"--effort nan", "--effort inf", "--time-budget nan", "--effort much"})
+    EXPECT_EQ(decompose(folder, std::string("ore.talus ") + option), 2) << option;
+}
+
 TEST(DecomposeFolder, ASecondRunDoesWhatIsNew) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "scans");

@@ -2,6 +2,10 @@
 // Needles, plates, shells, rings and unions of convex solids.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdio>
+
+#include "catalog/input_error.h"
 #include "decomposition/convex_decomposition.h"
 #include "tests/property/decomposition/random_bodies.h"
 #include "tests/support/partition_checks.h"
@@ -38,10 +42,31 @@ TEST(BodyKinds, NeedlesAndPlates) {
     expect_sound_level(solids::scaled(rock, scale), quick(4), 1);
 }
 
+// Thinner than the fit can follow: what is given out stands for the body, the rest is refused.
+TEST(BodyKinds, ThinBodiesAreFittedOrRefused) {
+  const catalog::TriangleMesh needle = solids::scaled(solids::sphere(1, 3), {50, 1, 1});
+  int refused = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    DecompositionOptions options = quick(8);
+    options.seed = seed;
+    try {
+      const catalog::LevelOfDetail level = decompose(needle, options);
+      EXPECT_LT(level.error.symmetric_difference, 1) << seed;
+      EXPECT_LT(std::abs(level.error.volume_error), 0.05) << seed;
+    } catch (const catalog::InputError& error) {
+      ++refused;
+      EXPECT_NE(std::string(error.what()).find("it is too thin for the fit; ask for another number of parts"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+  std::printf("  %d of 4 refused\n", refused);
+}
+
 TEST(BodyKinds, ShellsWithACavity) {
   for (const double wall : {0.4, 0.1}) {
     const catalog::LevelOfDetail level =
-        expect_sound_level(random_bodies::random_shell(3, wall), quick(8), wall > 0.2 ? 0.35 : 2.0);
+        expect_sound_level(random_bodies::random_shell(3, wall), quick(8), wall > 0.2 ? 0.35 : 1.0);
     EXPECT_NE(level.provenance.options.find("\"cavities\":1"), std::string::npos);
   }
 }
