@@ -181,6 +181,8 @@ void write_files(const Bench& bench, const BenchPlan& plan, const Measured& meas
   std::string page = plan.page ? plan.page(measured.figures)
                                : markdown_table("talus bench " + bench.name + ": " + bench.summary, measured.figures);
   for (const PlotAxes& axes : plan.plots) {
+    const auto is_drawn = [&](const PlotCurve& curve) { return curve.plot == axes.name; };
+    if (std::none_of(measured.curves.begin(), measured.curves.end(), is_drawn)) continue;  // its cases were not run
     const std::string plot = stem + "_" + axes.name + ".svg";
     write_whole(options.out / plot, log_plot_svg(axes, measured.curves));
     if (plan.page) page += "\n![" + axes.title + "](" + plot + ")\n";
