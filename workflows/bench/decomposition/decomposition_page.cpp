@@ -132,8 +132,8 @@ std::string anytime_text(const FigureTable& figures) {
       most = std::max(most, figures(kBudgetCase, kBudgetStudy.figure(parts, setting, "by at most")));
     }
   if (seeds == 0) return "Here more time never made a level worse.";
-  return "Here more time made a level worse " + fixed(seeds, 0) + " times, by " + fixed(most, 3) +
-         " % of the volume at most.";
+  return "Here more time made a level worse " + (seeds == 1 ? "once" : fixed(seeds, 0) + " times") + ", by " +
+         fixed(most, 3) + " % of the volume at most.";
 }
 
 struct FrontLevel {

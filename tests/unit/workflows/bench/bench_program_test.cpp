@@ -61,6 +61,7 @@ TEST(BenchProgram, NoNameOrAWrongOptionIsAUsageErrorAndHelpIsNot) {
   const TemporaryFolder folder;
   EXPECT_EQ(run_bench(folder, "").status, 2);
   EXPECT_EQ(run_bench(folder, "overlap --threads none").status, 2);
+  EXPECT_NE(run_bench(folder, "overlap --threads 1,,2").error.find("found '1,,2'"), std::string::npos);
   EXPECT_EQ(run_bench(folder, "--help").status, 0);
 }
 
