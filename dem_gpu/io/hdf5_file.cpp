@@ -109,8 +109,6 @@ Id dataset_creation(std::size_t rows, std::size_t columns, std::size_t element_s
 
 }  // namespace
 
-// ---- Writer
-
 struct Hdf5Writer::Handle {
   std::filesystem::path file;
   std::filesystem::path temporary;
@@ -228,8 +226,6 @@ void Hdf5Writer::commit() {
   // The rename itself; some file systems do not sync folders, and the file is whole either way.
   sync_to_disk(handle_->file.has_parent_path() ? handle_->file.parent_path() : std::filesystem::path("."));
 }
-
-// ---- Reader
 
 struct Hdf5Reader::Handle {
   std::filesystem::path file;
