@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -144,6 +145,24 @@ TEST(DecomposeFolder, ASecondRunDoesWhatIsNew) {
   EXPECT_TRUE(levels[0]["new"]) << "angle";
   EXPECT_FALSE(levels[1]["new"]) << "egg";
   EXPECT_NE(read_bytes(folder / "err").find("decompose: [1/1] angle"), std::string::npos);
+}
+
+TEST(DecomposeFolder, AShapeWithACheckThatDidNotPassIsDecomposedAndTheStatusIs4) {
+  const TemporaryFolder folder;
+  // Normals that all point up are none of an ellipsoid's: the check given_normals.
+  std::string cloud;
+  constexpr int kPoints = 1500;
+  for (int i = 0; i < kPoints; ++i) {
+    const double z = 1 - (2 * i + 1.0) / kPoints, radius = std::sqrt(1 - z * z), angle = 2.399963 * i;  // golden angle
+    cloud += std::to_string(1.5 * radius * std::cos(angle)) + " " + std::to_string(radius * std::sin(angle)) + " " +
+             std::to_string(z) + " 0 0 1\n";
+  }
+  write_bytes(folder / "cloud.xyz", cloud);
+  EXPECT_EQ(decompose(folder, "cloud.xyz --into ore.talus --unit mm --parts 1 --effort 0.1 --json"), 4);
+  EXPECT_EQ(output(folder)["levels"].size(), 1u);
+  EXPECT_NE(read_bytes(folder / "err").find("  cloud: given_normals\n"), std::string::npos)
+      << read_bytes(folder / "err");
+  EXPECT_EQ(decompose(folder, "ore.talus --parts 1 --effort 0.1 --json"), 0) << "nothing is digitised";
 }
 
 TEST(DecomposeFolder, AFolderIsNoCatalogueAndOptionsOfScansNeedOne) {
