@@ -159,6 +159,20 @@ void make_folders(const Options& options) {
   }
 }
 
+/// Adds a curve, or goes on with the one of the same plot and label.
+void add_curve(std::vector<PlotCurve>& curves, PlotCurve next) {
+  const auto known = std::find_if(curves.begin(), curves.end(), [&](const PlotCurve& curve) {
+    return curve.plot == next.plot && curve.label == next.label && curve.is_reference == next.is_reference;
+  });
+  if (known == curves.end()) {
+    curves.push_back(std::move(next));
+    return;
+  }
+  known->x.insert(known->x.end(), next.x.begin(), next.x.end());
+  known->y.insert(known->y.end(), next.y.begin(), next.y.end());
+  known->point_names.insert(known->point_names.end(), next.point_names.begin(), next.point_names.end());
+}
+
 Measured measure(const std::vector<BenchCase>& cases, const Options& options) {
   Measured measured;
   BatchProgress progress("bench " + options.bench, static_cast<int>(cases.size()));
@@ -167,7 +181,7 @@ Measured measure(const std::vector<BenchCase>& cases, const Options& options) {
     CaseResult result = measure_or_keep(bench_case, options);
     for (Figure& figure : result.figures)
       measured.figures.push_back({options.bench, bench_case.name, std::move(figure), command_of(options, bench_case)});
-    for (PlotCurve& curve : result.curves) measured.curves.push_back(std::move(curve));
+    for (PlotCurve& curve : result.curves) add_curve(measured.curves, std::move(curve));
   }
   progress.finish();
   return measured;

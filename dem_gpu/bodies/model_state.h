@@ -17,11 +17,18 @@
 
 namespace dem_gpu {
 
+/// The shapes of a scene as the engine uses them.
+struct PreparedShapes {
+  ShapeColumns columns;           // the scene's shapes, then one per volume object
+  std::vector<Real> least_width;  // n_shapes, see shapes/least_width.h [m]
+  int first_object = 0;           // row of the first volume object among the walls
+};
+
 /// What a run is about: constant once made.
 struct Model {
   Scene scene;
-  ShapeColumns shapes;  // the scene's shapes, then one per volume object
-  MeshColumns meshes;   // one per mesh wall
+  PreparedShapes shapes;
+  MeshColumns meshes;  // one per mesh wall
   BodyConstants bodies;
   DeviceVector<PairProperties> pairs;  // n_materials x n_materials
   int material_count = 0;

@@ -180,7 +180,7 @@ DeviceVector<ContactKey> candidate_keys(const Model& model, State& state) {
   DeviceVector<int> first(static_cast<std::size_t>(body_count) + 1, 0);
   ListPairs list{bodies,
                  ghosts,
-                 view(model.shapes),
+                 view(model.shapes.columns),
                  view(model.meshes),
                  grid.view(),
                  state.walls.device(),
@@ -277,7 +277,8 @@ void build_neighbour_list(const Model& model, State& state) {
   const int count = static_cast<int>(next.key.size());
   resize_columns(next, count, model.features);
   if (model.features.has_polyhedra) {
-    parallel_for(0, count, CountPartPairs{view(next), bodies, pointer(model.shapes.shapes), state.walls.device()});
+    parallel_for(0, count,
+                 CountPartPairs{view(next), bodies, pointer(model.shapes.columns.shapes), state.walls.device()});
     next.separating.assign(static_cast<std::size_t>(exclusive_scan(next.cache_begin)), SeparatingPlane{0});
   }
   if (model.features.has_meshes) list_facets(model, state, next);

@@ -41,7 +41,7 @@ struct ContactScene {
 inline ContactScene contact_scene(const Model& model, State& state) {
   return {view(state.contacts),
           bodies_with_ghosts(model, state),
-          view(model.shapes),
+          view(model.shapes.columns),
           view(model.meshes),
           state.walls.device(),
           state.walls.welds(),

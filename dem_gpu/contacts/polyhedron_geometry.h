@@ -33,6 +33,11 @@ TALUS_HD inline Real smaller_diameter(const ShapeView& shapes, int shape_a, int 
                   b.scale * shapes.shapes[shape_b].equivalent_diameter);
 }
 
+TALUS_HD inline bool balls_meet(const Vec3& centre_a, Real radius_a, const Vec3& centre_b, Real radius_b) {
+  const Real reach = radius_a + radius_b;
+  return norm_squared(centre_a - centre_b) < reach * reach;
+}
+
 /// Sums a law's integrals over all pairs of parts of two polyhedral bodies. `separating`: the contact's cache, one
 /// entry per pair of parts. False if a polygon was truncated.
 template <class Integrals>
@@ -42,14 +47,17 @@ TALUS_HD bool integrate_bodies(const ShapeView& shapes, int shape_a, int shape_b
   const ShapeRange& range_b = shapes.shapes[shape_b];
   const FrameChange b_to_a = frame_change(a, b), a_to_b = frame_change(b, a);
   bool is_whole = true;
-  for (int i = 0; i < range_a.part_count; ++i) {
-    const PartView part_a = part_view(shapes, range_a.first_part + i);
-    for (int j = 0; j < range_b.part_count; ++j) {
-      const PartView part_b = part_view(shapes, range_b.first_part + j);
-      const Real reach = part_a.range.radius + b_to_a.scale * part_b.range.radius;
-      if (norm_squared(b_to_a.point(part_b.range.centre) - part_a.range.centre) >= reach * reach) continue;
+  for (int j = 0; j < range_b.part_count; ++j) {
+    const PartRange& ball_b = shapes.parts[range_b.first_part + j];
+    const Vec3 centre_b = b_to_a.point(ball_b.centre);
+    const Real radius_b = b_to_a.scale * ball_b.radius;
+    if (!balls_meet(centre_b, radius_b, Vec3{}, range_a.bounding_radius)) continue;
+    for (int i = 0; i < range_a.part_count; ++i) {
+      const PartRange& ball_a = shapes.parts[range_a.first_part + i];
+      if (!balls_meet(centre_b, radius_b, ball_a.centre, ball_a.radius)) continue;
       const OverlapStatus status =
-          integrate_overlap(part_a, part_b, b_to_a, a_to_b, separating[i * range_b.part_count + j], integrals);
+          integrate_overlap(part_view(shapes, range_a.first_part + i), part_view(shapes, range_b.first_part + j),
+                            b_to_a, a_to_b, separating[i * range_b.part_count + j], integrals);
       if (status == OverlapStatus::polygon_truncated) is_whole = false;
     }
   }

@@ -136,8 +136,8 @@ std::int64_t fingerprint(const Model& model) {
   mix_all(to_host(model.bodies.shape));
   mix_all(to_host(model.bodies.material));
   for (const Body& body : model.scene.bodies) mix(&body.is_fixed, sizeof(bool));
-  mix_all(to_host(model.shapes.vertices));
-  mix_all(to_host(model.shapes.depth_planes));
+  mix_all(to_host(model.shapes.columns.vertices));
+  mix_all(to_host(model.shapes.columns.depth_planes));
   mix_all(to_host(model.meshes.planes));
   mix_all(to_host(model.meshes.vertices));
   const WallSet at_start(model.scene, static_cast<int>(model.scene.shapes.size()));

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "dem_gpu/narrow_phase/part_vertices.h"
-#include "dem_gpu/narrow_phase/polygon.h"
 
 namespace dem_gpu {
 
@@ -15,43 +14,53 @@ struct LocalBall {
   LocalReal radius = 0;
 };
 
-/// Bounds of pieces of a surface.
-class PieceBounds {
- public:
-  TALUS_HD void add(const Polygon& piece) {
-    for (int c = 0; c < piece.count; ++c) {
-      const LocalVec3& p = piece.corner[c];
-      low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y), std::min(low_.z, p.z)};
-      high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y), std::max(high_.z, p.z)};
-    }
+/// About the middle of the points' bounding box.
+template <int kMost>
+TALUS_HD LocalBall ball_about(const PointColumns<kMost>& points) {
+  LocalVec3 low = points[0], high = low;
+  for (int i = 1; i < points.count; ++i) {
+    const LocalVec3 p = points[i];
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
-  TALUS_HD bool is_empty() const { return low_.x > high_.x; }
-  TALUS_HD LocalBall ball() const { return {LocalReal(0.5) * (low_ + high_), LocalReal(0.5) * norm(high_ - low_)}; }
+  return {LocalReal(0.5) * (low + high), LocalReal(0.5) * norm(high - low)};
+}
 
- private:
-  static constexpr LocalReal kFar = std::numeric_limits<LocalReal>::max();
-  LocalVec3 low_{kFar, kFar, kFar}, high_{-kFar, -kFar, -kFar};
+/// Room for what of a depth field can be the least somewhere in an overlap.
+struct NearField {
+  static constexpr int kMostPlanes = 128, kMostTerms = 64;
+  ScratchArray<LocalHalfSpace, kMostPlanes> plane;
+  ScratchArray<DepthTerm, kMostTerms> term;
 };
 
-/// Room for the planes of a depth field that can be the least somewhere in an overlap.
-struct NearPlanes {
-  static constexpr int kMost = 128;
-  ScratchArray<LocalHalfSpace, kMost> plane;
-};
-
-/// Depths of the shallowest and deepest vertex below a plane.
+/// Depths of the shallowest and deepest of some points below a plane.
 struct DepthRange {
   LocalReal shallowest, deepest;
 };
 
-TALUS_HD inline DepthRange depth_range(const LocalHalfSpace& plane, const PartVertices& vertices) {
-  Lanes lowest = vertices.height_over(plane, 0), highest = lowest;
-  for (int first = kLanes; first < vertices.padded_count; first += kLanes) {
-    const Lanes height = vertices.height_over(plane, first);
+template <int kMost>
+TALUS_HD DepthRange depth_range(const LocalHalfSpace& plane, const PointColumns<kMost>& points) {
+  Lanes lowest = points.height_over(plane, 0), highest = lowest;
+  for (int first = kLanes; first < points.padded_count; first += kLanes) {
+    const Lanes height = points.height_over(plane, first);
     lowest = least(height, lowest);
     highest = greatest(height, highest);
   }
   return {-greatest_lane(highest), -least_lane(lowest)};
+}
+
+/// A term is the greatest of a few planes: in the hull of some points nowhere shallower and nowhere deeper than this.
+/// `range_below`: of the points, below a plane.
+template <class RangeBelow>
+TALUS_HD DepthRange term_range(const DepthField& field, int term, RangeBelow&& range_below) {
+  const LocalHalfSpace* planes = field.term_planes + field.terms[term].first;
+  DepthRange range = range_below(planes[0]);
+  for (int i = 1; i < field.terms[term].count; ++i) {
+    const DepthRange other = range_below(planes[i]);
+    range.shallowest = std::max(range.shallowest, other.shallowest);
+    range.deepest = std::max(range.deepest, other.deepest);
+  }
+  return range;
 }
 
 /// Deeper than this the field is nowhere in the ball: every depth changes by at most the distance.
@@ -76,58 +85,44 @@ TALUS_HD inline bool is_within(const DepthField& field, int term, const LocalBal
   return true;
 }
 
-/// The field with all its terms, or with none if none is near.
-TALUS_HD inline DepthField with_planes(const DepthField& field, const LocalHalfSpace* planes, int plane_count,
-                                       const LocalBall& ball, LocalReal bound) {
-  DepthField near = field;
-  near.planes = planes;
-  near.plane_count = plane_count;
-  near.term_count = 0;
-  for (int t = 0; t < field.term_count && near.term_count == 0; ++t)
-    if (is_within(field, t, ball, bound)) near.term_count = field.term_count;
-  return near;
-}
-
-/// The field in the hull of some vertices, for a field of at most NearPlanes::kMost planes: a plane is out if all
-/// vertices lie deeper below it than the deepest lies below another. `ball` bounds the vertices and settles the planes
-/// on the solid's far side.
-TALUS_HD inline DepthField near_hull(const DepthField& field, const PartVertices& vertices, const LocalBall& ball,
-                                     NearPlanes& near) {
-  ScratchArray<LocalReal, NearPlanes::kMost> shallowest;
-  ScratchArray<std::int16_t, NearPlanes::kMost> candidate;
-  int nearest = 0;
-  LocalReal nearest_depth = std::numeric_limits<LocalReal>::max();
-  for (int i = 0; i < field.plane_count; ++i) {
-    const LocalReal depth = depth_below(field.planes[i], ball.centre);
-    if (depth < nearest_depth) nearest_depth = depth, nearest = i;
-  }
-  LocalReal bound = depth_range(field.planes[nearest], vertices).deepest;
-  int candidate_count = 0;
-  for (int i = 0; i < field.plane_count; ++i) {
-    const LocalHalfSpace plane = field.planes[i];
-    if (depth_below(plane, ball.centre) - ball.radius > bound) continue;
-    const DepthRange range = depth_range(plane, vertices);
-    if (range.deepest < bound) bound = range.deepest;
-    if (range.shallowest > bound) continue;
-    shallowest[candidate_count] = range.shallowest;
-    candidate[candidate_count++] = static_cast<std::int16_t>(i);
-  }
-  int plane_count = 0;
-  for (int k = 0; k < candidate_count; ++k)
-    if (shallowest[k] <= bound) near.plane[plane_count++] = field.planes[candidate[k]];
-  return with_planes(field, near.plane.data(), plane_count, ball, bound);
-}
-
-/// The field in a ball; the whole field if too many planes are near.
-TALUS_HD inline DepthField near_ball(const DepthField& field, const LocalBall& ball, NearPlanes& near) {
-  const LocalReal bound = greatest_possible(ball, field);
-  int plane_count = 0;
+/// The field in the hull of some points: a plane or term is out if it is nowhere there less deep than another one is at
+/// its deepest. `ball` bounds the points and settles most at the cost of one depth. The whole field if too much is
+/// near.
+template <int kMost>
+TALUS_HD DepthField near_field(const DepthField& field, const PointColumns<kMost>& points, const LocalBall& ball,
+                               NearField& near) {
+  ScratchArray<LocalReal, NearField::kMostPlanes> plane_shallowest;
+  ScratchArray<LocalReal, NearField::kMostTerms> term_shallowest;
+  LocalReal bound = greatest_possible(ball, field);
+  int planes = 0, terms = 0;
+  const auto range_below = [&](const LocalHalfSpace& plane) { return depth_range(plane, points); };
   for (int i = 0; i < field.plane_count; ++i) {
     if (depth_below(field.planes[i], ball.centre) - ball.radius > bound) continue;
-    if (plane_count == NearPlanes::kMost) return field;
-    near.plane[plane_count++] = field.planes[i];
+    const DepthRange range = range_below(field.planes[i]);
+    bound = std::min(bound, range.deepest);
+    if (range.shallowest > bound) continue;
+    if (planes == NearField::kMostPlanes) return field;
+    plane_shallowest[planes] = range.shallowest;
+    near.plane[planes++] = field.planes[i];
   }
-  return with_planes(field, near.plane.data(), plane_count, ball, bound);
+  for (int t = 0; t < field.term_count; ++t) {
+    if (!is_within(field, t, ball, bound)) continue;
+    const DepthRange range = term_range(field, t, range_below);
+    bound = std::min(bound, range.deepest);
+    if (range.shallowest > bound) continue;
+    if (terms == NearField::kMostTerms) return field;
+    term_shallowest[terms] = range.shallowest;
+    near.term[terms++] = field.terms[t];
+  }
+  DepthField result = field;
+  result.planes = near.plane.data();
+  result.terms = near.term.data();
+  result.plane_count = result.term_count = 0;
+  for (int i = 0; i < planes; ++i)
+    if (plane_shallowest[i] <= bound) near.plane[result.plane_count++] = near.plane[i];
+  for (int t = 0; t < terms; ++t)
+    if (term_shallowest[t] <= bound) near.term[result.term_count++] = near.term[t];
+  return result;
 }
 
 }  // namespace dem_gpu

@@ -8,6 +8,7 @@
 #include "dem_gpu/narrow_phase/near_depth.h"
 #include "dem_gpu/narrow_phase/polygon.h"
 #include "dem_gpu/narrow_phase/separating_plane.h"
+#include "dem_gpu/narrow_phase/surface_pieces.h"
 
 namespace dem_gpu {
 
@@ -74,15 +75,24 @@ TALUS_HD bool visit_surface_inside(const PartView& surface, int face_count, cons
   return true;
 }
 
-/// What of a solid's depth field matters to another body's surface inside it: of a field that fits in the hull of all
-/// that body's vertices, of a larger one near the surface's pieces, which `visit` visits.
-template <class Visit>
-TALUS_HD DepthField near_field(const DepthField& field, const PartVertices& vertices, const LocalBall& ball,
-                               const Visit& visit, NearPlanes& near) {
-  if (field.plane_count <= NearPlanes::kMost) return near_hull(field, vertices, ball, near);
-  PieceBounds bounds;
-  visit([&](const Polygon& piece, int /*face*/) { bounds.add(piece); });
-  return bounds.is_empty() ? field : near_ball(field, bounds.ball(), near);
+/// Hands the pieces of a surface inside a solid, which `visit` visits, to add(polygon, face, solid), the solid with
+/// what of its depth field matters on them. `vertices`: the surface's, in the solid's frame. False if a polygon was
+/// truncated.
+template <class Visit, class Add>
+TALUS_HD bool integrate_near_depth(const PartView& solid, const PartVertices& vertices, const Visit& visit, Add&& add) {
+  SurfacePieces pieces;
+  if (!visit([&](const Polygon& piece, int face) { pieces.add(piece, face); })) return false;
+  if (pieces.count() == 0) return true;
+  NearField near;
+  PartView near_solid = solid;
+  if (!pieces.is_complete()) {
+    near_solid.depth = near_field(solid.depth, vertices, ball_about(vertices), near);
+    return visit([&](Polygon& piece, int face) { add(piece, face, near_solid); });
+  }
+  pieces.corners.pad();
+  near_solid.depth = near_field(solid.depth, pieces.corners, ball_about(pieces.corners), near);
+  pieces.visit([&](Polygon& piece, int face) { add(piece, face, near_solid); });
+  return true;
 }
 
 enum class OverlapStatus : std::uint8_t { separated, overlapping, polygon_truncated };
@@ -126,20 +136,20 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
   const auto visit_a = [&](auto&& visitor) {
     return visit_surface_inside(a, faces_a, b, vertices_a, sides_a, {sides_a, tolerance_b, false}, visitor);
   };
-  PartView solid_a = a, solid_b = b;
-  NearPlanes near_a, near_b;
+  const auto add_b = [&](Polygon& polygon, int face, const PartView& solid) {
+    integrals.add_surface_b(polygon, b.planes[face], face < b.range.outer_face_count, solid, b_to_a);
+  };
+  const auto add_a = [&](Polygon& polygon, int face, const PartView& solid) {
+    integrals.add_surface_a(polygon, a.planes[face], face < a.range.outer_face_count, solid, b_to_a);
+  };
+  bool b_whole, a_whole;
   if constexpr (Integrals::kNeedsDepthPlanes) {
-    const LocalBall ball_b{rounded(b_to_a.point(b.range.centre)), rounded(b_to_a.scale * b.range.radius)};
-    const LocalBall ball_a{rounded(a_to_b.point(a.range.centre)), rounded(a_to_b.scale * a.range.radius)};
-    solid_a.depth = near_field(a.depth, vertices_b, ball_b, visit_b, near_a);
-    solid_b.depth = near_field(b.depth, vertices_a, ball_a, visit_a, near_b);
+    b_whole = integrate_near_depth(a, vertices_b, visit_b, add_b);
+    a_whole = integrate_near_depth(b, vertices_a, visit_a, add_a);
+  } else {
+    b_whole = visit_b([&](Polygon& polygon, int face) { add_b(polygon, face, a); });
+    a_whole = visit_a([&](Polygon& polygon, int face) { add_a(polygon, face, b); });
   }
-  const bool b_whole = visit_b([&](Polygon& polygon, int face) {
-    integrals.add_surface_b(polygon, b.planes[face], face < b.range.outer_face_count, solid_a, b_to_a);
-  });
-  const bool a_whole = visit_a([&](Polygon& polygon, int face) {
-    integrals.add_surface_a(polygon, a.planes[face], face < a.range.outer_face_count, solid_b, b_to_a);
-  });
   if constexpr (Integrals::kNeedsDepthPlanes)
     if (integrals.is_truncated) return OverlapStatus::polygon_truncated;
   return a_whole && b_whole ? OverlapStatus::overlapping : OverlapStatus::polygon_truncated;

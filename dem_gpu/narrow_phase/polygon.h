@@ -25,17 +25,20 @@ TALUS_HD inline void append(Polygon& polygon, const LocalVec3& corner) {
     polygon.is_truncated = true;
 }
 
-/// The piece of `polygon` inside the half-space (its normal need not be a unit vector). Sutherland & Hodgman, Commun.
-/// ACM 17 (1974) 32-42.
-TALUS_HD inline void clip(const Polygon& polygon, const LocalHalfSpace& half_space, Polygon& clipped) {
+/// Depth of each corner of a polygon below a plane.
+using CornerDepths = ScratchArray<LocalReal, kMaxPolygonCorners>;
+
+/// The piece of `polygon` where the depths, given at its corners and linear between them, are not negative. Sutherland
+/// & Hodgman, Commun. ACM 17 (1974) 32-42.
+TALUS_HD inline void clip(const Polygon& polygon, const CornerDepths& depths, Polygon& clipped) {
   clipped.count = 0;
   clipped.is_truncated = polygon.is_truncated;
   if (polygon.count == 0) return;
   LocalVec3 previous = polygon.corner[polygon.count - 1];
-  LocalReal previous_depth = depth_below(half_space, previous);
+  LocalReal previous_depth = depths[polygon.count - 1];
   for (int c = 0; c < polygon.count; ++c) {
     const LocalVec3 current = polygon.corner[c];
-    const LocalReal depth = depth_below(half_space, current);
+    const LocalReal depth = depths[c];
     if ((depth > 0 && previous_depth < 0) || (depth < 0 && previous_depth > 0))
       append(clipped, previous + (previous_depth / (previous_depth - depth)) * (current - previous));
     if (depth >= 0) append(clipped, current);
@@ -43,6 +46,13 @@ TALUS_HD inline void clip(const Polygon& polygon, const LocalHalfSpace& half_spa
     previous_depth = depth;
   }
   if (clipped.count < 3) clipped.count = 0;
+}
+
+/// The piece of `polygon` inside the half-space (its normal need not be a unit vector).
+TALUS_HD inline void clip(const Polygon& polygon, const LocalHalfSpace& half_space, Polygon& clipped) {
+  CornerDepths depths;
+  for (int c = 0; c < polygon.count; ++c) depths[c] = depth_below(half_space, polygon.corner[c]);
+  clip(polygon, depths, clipped);
 }
 
 }  // namespace dem_gpu

@@ -84,16 +84,18 @@ struct ShrinkingPolygon {
 
   /// Keeps what lies in the cell. A piece wholly on the cell's boundary stays only if `owns_ties`.
   TALUS_HD void keep(const LocalHalfSpace& cell, bool owns_ties) {
+    CornerDepths margins;
     bool all_inside = true, all_outside = true;
     for (int c = 0; c < piece->count; ++c) {
       const LocalReal margin = depth_below(cell, piece->corner[c]);
       if (margin < 0) all_inside = false;
       if (margin > 0 || (margin == 0 && owns_ties)) all_outside = false;
+      margins[c] = margin;
     }
     if (all_outside) {
       piece = nullptr;
     } else if (!all_inside) {
-      clip(*piece, cell, buffer[next]);
+      clip(*piece, margins, buffer[next]);
       piece = buffer[next].count > 0 ? &buffer[next] : nullptr;
       next = 1 - next;
     }
@@ -103,12 +105,75 @@ struct ShrinkingPolygon {
 /// Planes that a depth field may have near one polygon, those of terms that are one plane there among them; and terms
 /// that are not, with their planes.
 inline constexpr int kMostTermsOnPolygon = 48, kMostTermPlanesOnPolygon = 160;
-inline constexpr int kMostPlanesOnPolygon = NearPlanes::kMost + kMostTermsOnPolygon;
+inline constexpr int kMostPlanesOnPolygon = NearField::kMostPlanes + kMostTermsOnPolygon;
 
 /// Where the depth below `low` is at most that below `high`.
 TALUS_HD inline LocalHalfSpace lower_side(const LocalHalfSpace& low, const LocalHalfSpace& high) {
   return {high.normal - low.normal, high.offset - low.offset};
 }
+
+/// Least and largest depth of a polygon below a plane; its corners have them.
+TALUS_HD inline DepthRange depth_range(const Polygon& polygon, const LocalHalfSpace& plane) {
+  DepthRange range;
+  range.shallowest = range.deepest = depth_below(plane, polygon.corner[0]);
+  for (int c = 1; c < polygon.count; ++c) {
+    const LocalReal depth = depth_below(plane, polygon.corner[c]);
+    range.shallowest = depth < range.shallowest ? depth : range.shallowest;
+    range.deepest = depth > range.deepest ? depth : range.deepest;
+  }
+  return range;
+}
+
+/// Planes that may each be the least somewhere on a polygon, compared by their depths at its corners.
+class Contenders {
+ public:
+  static constexpr int kMost = 64, kMostDepths = 512;
+
+  /// With more planes or corners than fit, no comparison is made.
+  TALUS_HD static bool fits(int count, int corners) { return count <= kMost && count * corners <= kMostDepths; }
+
+  TALUS_HD void add(const Polygon& polygon, const LocalHalfSpace& plane) {
+    LocalReal* depth = depth_.data() + count_ * polygon.count;
+    for (int c = 0; c < polygon.count; ++c) depth[c] = depth_below(plane, polygon.corner[c]);
+    cutting_[count_] = 0;
+    standing_ |= std::uint64_t{1} << count_++;
+  }
+
+  /// To be called when all are in.
+  TALUS_HD void compare(int corners) {
+    for (int k = 0; k < count_; ++k)
+      for (int m = k + 1; m < count_ && stands(k); ++m)
+        if (stands(m)) compare(k, m, corners);
+  }
+
+  /// False if another plane is nowhere above plane k.
+  TALUS_HD bool stands(int k) const { return (standing_ >> k & 1) != 0; }
+  /// The planes that are below plane k on a part of the polygon, a bit each.
+  TALUS_HD std::uint64_t cutting(int k) const { return cutting_[k] & standing_; }
+
+ private:
+  TALUS_HD void compare(int k, int m, int corners) {
+    const LocalReal *of_k = depth_.data() + k * corners, *of_m = depth_.data() + m * corners;
+    bool k_is_lower = false, m_is_lower = false;
+    for (int c = 0; c < corners; ++c) {
+      k_is_lower |= of_k[c] < of_m[c];
+      m_is_lower |= of_m[c] < of_k[c];
+    }
+    if (k_is_lower && m_is_lower) {
+      cutting_[k] |= std::uint64_t{1} << m;
+      cutting_[m] |= std::uint64_t{1} << k;
+    } else {
+      standing_ &= ~(std::uint64_t{1} << (m_is_lower ? k : m));  // of equal ones the lower index stands
+    }
+  }
+
+  ScratchArray<LocalReal, kMostDepths> depth_;  // at the corners, plane by plane
+  ScratchArray<std::uint64_t, kMost> cutting_;
+  std::uint64_t standing_ = 0;
+  int count_ = 0;
+};
+
+TALUS_HD inline int lowest_bit(std::uint64_t bits) { return count_bits((bits & (~bits + 1)) - 1); }
 
 /// Cuts a polygon into the pieces on which each of `planes` is the one it lies least deep below: visitor(piece, plane).
 /// One piece where one plane is least at all corners. The lower index owns a tie.
@@ -118,33 +183,44 @@ TALUS_HD void visit_least_depth(const Polygon& polygon, const LocalHalfSpace* pl
   // A plane is no candidate if another one is below it at every corner: it suffices to compare with the plane whose
   // largest depth is least.
   constexpr int kLargest = kMostPlanesOnPolygon;
-  ScratchArray<LocalReal, kLargest> smallest;
+  ScratchArray<LocalReal, kLargest> shallowest;
   ScratchArray<std::int16_t, kLargest> candidate;
-  LocalReal least_largest = std::numeric_limits<LocalReal>::max();
+  LocalReal least_deepest = std::numeric_limits<LocalReal>::max();
   int flattest = 0;
   for (int i = 0; i < plane_count; ++i) {
-    LocalReal low = depth_below(planes[i], polygon.corner[0]), high = low;
-    for (int c = 1; c < polygon.count; ++c) {
-      const LocalReal depth = depth_below(planes[i], polygon.corner[c]);
-      low = depth < low ? depth : low;
-      high = depth > high ? depth : high;
-    }
-    smallest[i] = low;
-    if (high < least_largest) least_largest = high, flattest = i;
+    const DepthRange range = depth_range(polygon, planes[i]);
+    shallowest[i] = range.shallowest;
+    if (range.deepest < least_deepest) least_deepest = range.deepest, flattest = i;
   }
   int count = 0;
   for (int i = 0; i < plane_count; ++i)
-    if (i == flattest || smallest[i] < least_largest) candidate[count++] = static_cast<std::int16_t>(i);
+    if (i == flattest || shallowest[i] < least_deepest) candidate[count++] = static_cast<std::int16_t>(i);
   if (count == 1) {
     visitor(polygon, planes[candidate[0]]);
     return;
   }
   Polygon buffer[2];
+  if (!Contenders::fits(count, polygon.count)) {
+    for (int k = 0; k < count; ++k) {
+      const LocalHalfSpace own = planes[candidate[k]];
+      ShrinkingPolygon cell{&polygon, buffer};
+      for (int m = 0; m < count && cell.piece; ++m)
+        if (m != k) cell.keep(lower_side(own, planes[candidate[m]]), k < m);
+      if (cell.piece) visitor(*cell.piece, own);
+    }
+    return;
+  }
+  Contenders contenders;
+  for (int k = 0; k < count; ++k) contenders.add(polygon, planes[candidate[k]]);
+  contenders.compare(polygon.count);
   for (int k = 0; k < count; ++k) {
+    if (!contenders.stands(k)) continue;
     const LocalHalfSpace own = planes[candidate[k]];
     ShrinkingPolygon cell{&polygon, buffer};
-    for (int m = 0; m < count && cell.piece; ++m)
-      if (m != k) cell.keep(lower_side(own, planes[candidate[m]]), k < m);
+    for (std::uint64_t left = contenders.cutting(k); left != 0 && cell.piece; left &= left - 1) {
+      const int m = lowest_bit(left);
+      cell.keep(lower_side(own, planes[candidate[m]]), k < m);
+    }
     if (cell.piece) visitor(*cell.piece, own);
   }
 }
@@ -160,6 +236,8 @@ TALUS_HD void add_least_depth(const Polygon& polygon, const LocalHalfSpace* plan
 }
 
 /// A depth field over one polygon: its planes, and the terms that change from one of their planes to another there.
+/// What lies nowhere in a ball about the polygon is left out first, then what lies nowhere on the polygon itself: a
+/// plane is least at a corner, and so is the largest value of a term, which is convex.
 struct FieldOnPolygon {
   ScratchArray<LocalHalfSpace, kMostPlanesOnPolygon> plane;  // room for one a term at the end
   int plane_count = 0;
@@ -171,22 +249,41 @@ struct FieldOnPolygon {
   TALUS_HD FieldOnPolygon(const Polygon& polygon, const DepthField& field) {
     const LocalBall ball = ball_about(polygon);
     const LocalReal limit = greatest_possible(ball, field);
+    ScratchArray<LocalReal, NearField::kMostPlanes> least;  // of each plane on the polygon
+    LocalReal bound = limit;                                // the field is nowhere on the polygon greater
     for (int i = 0; i < field.plane_count && !is_truncated; ++i) {
       if (depth_below(field.planes[i], ball.centre) - ball.radius > limit) continue;
-      is_truncated = plane_count == NearPlanes::kMost;
-      if (!is_truncated) plane[plane_count++] = field.planes[i];
+      const DepthRange depths = depth_range(polygon, field.planes[i]);
+      if (depths.shallowest > bound) continue;
+      bound = std::min(bound, depths.deepest);
+      is_truncated = plane_count == NearField::kMostPlanes;
+      if (is_truncated) break;
+      least[plane_count] = depths.shallowest;
+      plane[plane_count++] = field.planes[i];
     }
-    int used = 0;
+    NearTerms near;
     for (int t = 0; t < field.term_count && !is_truncated; ++t) {
-      const int count = field.terms[t].count;
       if (!is_within(field, t, ball, limit)) continue;
-      is_truncated = plane_count + term_count + 1 > kMostPlanesOnPolygon || term_count == kMostTermsOnPolygon ||
-                     used + count > kMostTermPlanesOnPolygon;
-      if (!is_truncated) used += add_term(polygon, field.term_planes + field.terms[t].first, count, used);
+      const DepthRange depths =
+          term_range(field, t, [&](const LocalHalfSpace& below) { return depth_range(polygon, below); });
+      if (depths.shallowest > bound) continue;
+      bound = std::min(bound, depths.deepest);
+      is_truncated = near.count == kMostPlanesOnPolygon;
+      if (is_truncated) break;
+      near.least[near.count] = depths.shallowest;
+      near.term[near.count++] = field.terms[t];
     }
+    if (!is_truncated) keep_up_to(bound, polygon, field.term_planes, least, near);
   }
 
  private:
+  /// Terms near the polygon, most of which are one plane there.
+  struct NearTerms {
+    ScratchArray<DepthTerm, kMostPlanesOnPolygon> term;
+    ScratchArray<LocalReal, kMostPlanesOnPolygon> least;  // on the polygon
+    int count = 0;
+  };
+
   TALUS_HD static LocalBall ball_about(const Polygon& polygon) {
     LocalVec3 sum;
     for (int c = 0; c < polygon.count; ++c) sum += polygon.corner[c];
@@ -194,6 +291,23 @@ struct FieldOnPolygon {
     LocalReal square = 0;
     for (int c = 0; c < polygon.count; ++c) square = std::max(square, norm_squared(polygon.corner[c] - centre));
     return {centre, std::sqrt(square)};
+  }
+
+  /// Leaves out what is nowhere less deep than `bound`.
+  TALUS_HD void keep_up_to(LocalReal bound, const Polygon& polygon, const LocalHalfSpace* term_planes,
+                           const ScratchArray<LocalReal, NearField::kMostPlanes>& least, const NearTerms& near) {
+    int kept = 0;
+    for (int i = 0; i < plane_count; ++i)
+      if (least[i] <= bound) plane[kept++] = plane[i];
+    plane_count = kept;
+    int used = 0;
+    for (int k = 0; k < near.count && !is_truncated; ++k) {
+      if (near.least[k] > bound) continue;
+      const int count = near.term[k].count;
+      is_truncated = plane_count + term_count + 1 > kMostPlanesOnPolygon || term_count == kMostTermsOnPolygon ||
+                     used + count > kMostTermPlanesOnPolygon;
+      if (!is_truncated) used += add_term(polygon, term_planes + near.term[k].first, count, used);
+    }
   }
 
   /// True if plane k is nowhere on the polygon the greatest of the term; of equal ones the lowest index stays.
@@ -288,6 +402,19 @@ class PolygonGrid {
   LocalReal low_[2], high_[2];
 };
 
+/// Adds a field over a polygon as a whole; false if it has more parts there, or one of more corners, than fit.
+template <class Sum>
+TALUS_HD bool add_depth_at_once(const Polygon& polygon, const DepthField& field, const LocalVec3& normal, Sum& sum) {
+  if (field.term_count == 0 && field.plane_count <= NearField::kMostPlanes) {
+    add_least_depth(polygon, field.planes, field.plane_count, normal, sum);
+    return !sum.is_truncated;
+  }
+  FieldOnPolygon here(polygon, field);
+  if (here.is_truncated) return false;
+  add_depth(polygon, here, normal, sum);
+  return !sum.is_truncated;
+}
+
 /// Adds a field over a polygon too large for it, cell by cell; false if it does not fit a cell.
 template <class Sum>
 TALUS_HD bool add_depth_by_cells(const Polygon& polygon, const DepthField& field, const LocalVec3& normal, int across,
@@ -297,10 +424,7 @@ TALUS_HD bool add_depth_by_cells(const Polygon& polygon, const DepthField& field
   for (int i = 0; i < across; ++i)
     for (int j = 0; j < across; ++j) {
       const Polygon* piece = grid.cell(polygon, i, j, buffer);
-      if (!piece) continue;
-      FieldOnPolygon here(*piece, field);
-      if (here.is_truncated) return false;
-      add_depth(*piece, here, normal, sum);
+      if (piece && !add_depth_at_once(*piece, field, normal, sum)) return false;
     }
   return true;
 }
@@ -313,19 +437,11 @@ TALUS_HD Sum integrate_depth(const Polygon& polygon, const DepthField& field, co
   empty.profile = profile;
   empty.origin = MomentOrigin::at(polygon.corner[0]);
   Sum sum = empty;
-  if (field.term_count == 0 && field.plane_count <= NearPlanes::kMost) {
-    add_least_depth(polygon, field.planes, field.plane_count, normal, sum);
-    return sum;
-  }
-  FieldOnPolygon here(polygon, field);
-  if (!here.is_truncated) {
-    add_depth(polygon, here, normal, sum);
-    return sum;
-  }
+  if (add_depth_at_once(polygon, field, normal, sum)) return sum;
   constexpr int kMostAcross = 32;
   for (int across = 2; across <= kMostAcross; across *= 2) {
-    if (add_depth_by_cells(polygon, field, normal, across, sum)) return sum;
     sum = empty;
+    if (add_depth_by_cells(polygon, field, normal, across, sum)) return sum;
   }
   sum.is_truncated = true;
   return sum;

@@ -11,7 +11,7 @@
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/overlap_probe.h"
 #include "dem_gpu/periodic/ghosts.h"
-#include "dem_gpu/walls/hidden_faces.h"
+#include "dem_gpu/start/lone_pair.h"
 
 namespace dem_gpu {
 namespace {
@@ -19,15 +19,6 @@ namespace {
 /// Shallower overlaps are rounding of faces that touch, and hold no energy to speak of: its share of a contact's goes
 /// with the square of this. In least widths.
 constexpr Real kLeastDepth = local_tolerance(1e-9, 1e-6);
-
-/// Two bodies, or a body and a wall, of the scene.
-struct StartPair {
-  ContactKind kind;
-  int a, b;
-  Vec3 shift_b{};  // to where a meets b, across a face of a periodic box [m]
-
-  bool has_wall() const { return is_wall_kind(kind); }
-};
 
 StartPair pair_of(ContactKey key, const GhostOwners& ghosts, const PeriodicLattice& lattice) {
   const ContactKind kind = key_kind(key);
@@ -67,66 +58,16 @@ void refuse_concentric(const Model& model, const StartPair& pair) {
   refuse(scene, pair, text);
 }
 
-/// The wall of a pair as it meets bodies among all others.
-Wall wall_alone(const Model& model, int index) {
-  Wall wall = model.scene.walls[index];
-  if (auto* object = std::get_if<VolumeObject>(&wall.geometry))
-    object->part = welded_part(model.scene, static_cast<std::size_t>(index));
-  auto* mesh = std::get_if<MeshObject>(&wall.geometry);
-  if (mesh && mesh->depth == 0) mesh->depth = max_of(model.bodies.bounding_radius, Real(0));
-  return wall;
-}
-
-/// The pair alone, at rest, without gravity, damping and friction; b, or the wall, stays and a is moved by `shift`.
-Scene scene_of(const Model& model, const StartPair& pair, const Vec3& shift) {
-  const Scene& scene = model.scene;
-  Scene alone;
-  alone.name = scene.name;
-  alone.gravity = {};
-  alone.materials = scene.materials;
-  const std::size_t n = scene.materials.size();
-  alone.contact.assign(n, std::vector<ContactProperties>(n, {1, 0}));
-  alone.polyhedral_law = scene.polyhedral_law;
-  alone.sphere_law = scene.sphere_law;
-  alone.friction = std::nullopt;
-  alone.energy_ledger = false;
-  alone.run.largest_start_overlap = std::numeric_limits<Real>::max();
-  const auto add = [&](const Body& body, const Vec3& moved_by) {
-    alone.shapes.push_back(scene.shapes[body.shape]);
-    Body copy = body;
-    copy.shape = static_cast<int>(alone.shapes.size()) - 1;
-    copy.position += moved_by;
-    copy.velocity = copy.angular_velocity = {};
-    copy.is_fixed = false;
-    alone.bodies.push_back(copy);
-  };
-  add(scene.bodies[pair.a], shift);
-  if (pair.has_wall())
-    alone.walls.push_back(wall_alone(model, pair.b));
-  else
-    add(scene.bodies[pair.b], pair.shift_b);
-  return alone;
-}
-
-/// Elastic force on a, moved by `shift` [N]; zero where the two do not touch.
-Vec3 force_at(const Model& model, const StartPair& pair, const Vec3& shift) {
-  const Snapshot snapshot = Simulation(scene_of(model, pair, shift)).snapshot();
-  Vec3 force;
-  for (const SnapshotContact& contact : snapshot.contacts)
-    force += (contact.body_a == 0 ? Real(1) : Real(-1)) * contact.force;
-  return force;
-}
-
 /// Work of the contact on a as a is drawn away along the force at the start [J]: the energy stored, for a law that is a
 /// gradient.
-Real stored_energy(const Model& model, const StartPair& pair, const Vec3& force, Real depth) {
+Real stored_energy(LonePair pair, const Vec3& force, Real depth) {
   const Vec3 away = unit_or(force, {0, 0, 1});
   Real touching = 0, apart = depth;
-  while (norm(force_at(model, pair, apart * away)) > 0) touching = std::exchange(apart, 2 * apart);
+  while (norm(pair.force_at(apart * away)) > 0) touching = std::exchange(apart, 2 * apart);
   constexpr int kHalvings = 6;
   for (int i = 0; i < kHalvings; ++i) {
     const Real middle = (touching + apart) / 2;
-    (norm(force_at(model, pair, middle * away)) > 0 ? touching : apart) = middle;
+    (norm(pair.force_at(middle * away)) > 0 ? touching : apart) = middle;
   }
   // Gauss-Legendre, 4 points a panel. A way out that is long against the depth crosses more than one contact.
   constexpr std::array<Real, 4> kPoint{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
@@ -138,7 +79,7 @@ Real stored_energy(const Model& model, const StartPair& pair, const Vec3& force,
   for (int panel = 0; panel < panels; ++panel)
     for (std::size_t i = 0; i < kPoint.size(); ++i) {
       const Real place = apart * (panel + (1 + kPoint[i]) / 2) / panels;
-      work += kWeight[i] * apart / (2 * panels) * dot(force_at(model, pair, place * away), away);
+      work += kWeight[i] * apart / (2 * panels) * dot(pair.force_at(place * away), away);
     }
   return work;
 }
@@ -210,7 +151,7 @@ Real book_start_energy(const Model& model, State& state) {
   Real sum = 0;
   for (std::size_t c = 0; c < keys.size(); ++c) {
     if (!(depth[c] > kLeastDepth * width[key_body_a(keys[c])])) continue;
-    stored[c] = stored_energy(model, pair_of(keys[c], ghosts, lattice), force[c], depth[c]);
+    stored[c] = stored_energy(LonePair(model, pair_of(keys[c], ghosts, lattice)), force[c], depth[c]);
     sum += stored[c];
   }
   assign(state.contacts.elastic_work, stored);

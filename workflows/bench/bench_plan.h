@@ -30,7 +30,8 @@ struct Figure {
 /// Stands for a run that failed, in a curve.
 inline constexpr double kFailedRun = std::numeric_limits<double>::quiet_NaN();
 
-/// One line of a plot; points that are kFailedRun are named as failed instead of drawn.
+/// One line of a plot; points that are kFailedRun are named as failed instead of drawn. Curves of several cases with
+/// one label are one line, in the order of the cases.
 struct PlotCurve {
   std::string plot;  // PlotAxes::name
   std::string label;

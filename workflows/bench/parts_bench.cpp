@@ -2,12 +2,14 @@
 // How many parts a rock needs: the same bed of rocks poured, tilted and emptied at every level of detail of a shape.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "catalog/input_error.h"
 #include "workflows/bench/bench_registry.h"
 #include "workflows/bench/catalogue_levels.h"
 #include "workflows/bench/level_cost.h"
+#include "workflows/bench/parts/parts_page.h"
 #include "workflows/bench/parts/rock_bed.h"
 #include "workflows/thread_count.h"
 
@@ -52,11 +54,11 @@ Response respond(const dem_gpu::Shape& shape, double reach, std::uint64_t seed) 
   return response;
 }
 
-using Answer = std::pair<const char*, double (*)(const Response&)>;
-constexpr Answer kAnswers[] = {{"packing fraction [-]", [](const Response& r) { return r.poured.packing_fraction; }},
-                               {"slide angle [degrees]", [](const Response& r) { return r.angle; }},
-                               {"half emptied after [s]", [](const Response& r) { return r.emptied.half_time; }},
-                               {"share left on the shelf [-]", [](const Response& r) { return r.emptied.left; }}};
+/// In the order of kBedAnswers.
+constexpr double (*kAnswerOf[])(const Response&) = {
+    [](const Response& r) { return r.poured.packing_fraction; }, [](const Response& r) { return r.angle; },
+    [](const Response& r) { return r.emptied.half_time; }, [](const Response& r) { return r.emptied.left; }};
+static_assert(std::size(kAnswerOf) == std::size(kBedAnswers));
 
 void add(CaseResult& result, const std::string& name, double value, const std::string& failure) {
   Figure figure{name, value, "", {}, failure};
@@ -67,30 +69,27 @@ void add(CaseResult& result, const std::string& name, double value, const std::s
   result.figures.push_back(figure);
 }
 
-CaseResult measure_levels(const ShapeLevels& rock, const std::vector<Level>& ladder) {
+CaseResult measure_level(const ShapeLevels& rock, const Level& level) {
+  const Response response = respond(rock.unit_shape(level), largest_reach(rock), kSeed);
   CaseResult result;
-  const double reach = largest_reach(rock);
-  std::vector<PlotCurve> curves;
-  for (const char* plot : {"packing", "angle", "emptying", "left", "cost"})
-    curves.push_back({plot, rock.shape.name + ", " + ladder_text(ladder.front().key), {}, {}, {}});
-  for (const Level& level : ladder) {
-    const Response response = respond(rock.unit_shape(level), reach, kSeed);
-    const std::string at = std::to_string(level.key.parts_asked) + " parts: ";
-    add(result, at + "symmetric difference [-]", level.error.symmetric_difference, "");
-    for (const auto& [name, value] : kAnswers) add(result, at + name, value(response), response.failure);
-    add(result, at + "contacts a rock [-]", response.poured.contacts, response.failure);
-    add(result, at + "time a step [ms]", 1e3 * response.poured.step_time, response.failure);
-    add(result, at + "largest overlap over d [-]", response.poured.largest_overlap, response.failure);
-    add(result, at + "energy imbalance over throughput [-]", response.poured.imbalance, response.failure);
-    const double y[] = {response.poured.packing_fraction, response.angle, response.emptied.half_time,
-                        response.emptied.left, 1e3 * response.poured.step_time};
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      curves[i].x.push_back(100 * level.error.symmetric_difference);
-      curves[i].y.push_back(response.failure.empty() ? y[i] : kFailedRun);
-      curves[i].point_names.push_back(std::to_string(level.key.parts_asked) + " parts");
-    }
-  }
-  result.curves = std::move(curves);
+  add(result, kLevelError, level.error.symmetric_difference, "");
+  for (std::size_t i = 0; i < std::size(kBedAnswers); ++i)
+    add(result, kBedAnswers[i], kAnswerOf[i](response), response.failure);
+  add(result, "contacts a rock [-]", response.poured.contacts, response.failure);
+  add(result, kStepTime, 1e3 * response.poured.step_time, response.failure);
+  add(result, "largest overlap over d [-]", response.poured.largest_overlap, response.failure);
+  add(result, "energy imbalance over throughput [-]", response.poured.imbalance, response.failure);
+  const std::pair<const char*, double> points[] = {{"packing", response.poured.packing_fraction},
+                                                   {"angle", response.angle},
+                                                   {"emptying", response.emptied.half_time},
+                                                   {"left", response.emptied.left},
+                                                   {"cost", 1e3 * response.poured.step_time}};
+  for (const auto& [plot, y] : points)
+    result.curves.push_back({plot,
+                             rock.shape.name + ", " + ladder_text(level.key),
+                             {100 * level.error.symmetric_difference},
+                             {response.failure.empty() ? y : kFailedRun},
+                             {std::to_string(level.key.parts_asked) + " parts"}});
   return result;
 }
 
@@ -104,7 +103,8 @@ CaseResult measure_spread(const ShapeLevels& rock) {
   std::vector<Response> responses;
   for (const std::uint64_t seed : kOtherSeeds) responses.push_back(respond(shape, reach, seed));
   CaseResult result;
-  for (const auto& [name, value] : kAnswers) {
+  for (std::size_t i = 0; i < std::size(kBedAnswers); ++i) {
+    const auto value = kAnswerOf[i];
     std::string failure;
     double mean = 0, square = 0;
     const auto count = static_cast<double>(responses.size());
@@ -113,8 +113,8 @@ CaseResult measure_spread(const ShapeLevels& rock) {
       mean += value(response) / count;
     }
     for (const Response& response : responses) square += std::pow(value(response) - mean, 2);
-    add(result, std::string("mean of ") + name, mean, failure);
-    add(result, std::string("standard deviation of ") + name, std::sqrt(square / (count - 1)), failure);
+    add(result, mean_of(kBedAnswers[i]), mean, failure);
+    add(result, deviation_of(kBedAnswers[i]), std::sqrt(square / (count - 1)), failure);
   }
   return result;
 }
@@ -136,12 +136,19 @@ BenchPlan plan_parts_bench(const BenchOptions& options) {
     return plan;
   }
   if (!options.threads.empty()) set_thread_count(options.threads.front());
+  std::vector<PartsStudy> studies;
   for (const ShapeLevels& rock : levels_of_catalogue(options.catalogue)) {
+    PartsStudy study{rock.shape.name, {}, rock.shape.name + "-spread"};
     for (const auto& [name, ladder] : rock.ladders())
-      plan.cases.push_back(
-          {rock.shape.name + "-" + name, [rock, ladder = ladder] { return measure_levels(rock, ladder); }});
-    plan.cases.push_back({rock.shape.name + "-spread", [rock] { return measure_spread(rock); }});
+      for (const Level& level : ladder) {
+        const std::string parts = std::to_string(level.key.parts_asked);
+        study.rows.push_back({rock.shape.name + "-" + name + "-" + parts, parts + " x " + ladder_text(level.key)});
+        plan.cases.push_back({study.rows.back().case_name, [rock, level] { return measure_level(rock, level); }});
+      }
+    plan.cases.push_back({study.spread_case, [rock] { return measure_spread(rock); }});
+    studies.push_back(std::move(study));
   }
+  plan.page = [studies](const std::vector<ReportedFigure>& figures) { return parts_page(figures, studies); };
   return plan;
 }
 

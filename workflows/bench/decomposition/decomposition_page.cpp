@@ -3,15 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
-#include <fstream>
-#include <limits>
-#include <map>
 #include <utility>
 
 #include "workflows/bench/decomposition/bench_levels.h"
 #include "workflows/bench/decomposition/goal_rows.h"
-#include "workflows/bench/decomposition/markdown_table.h"
+#include "workflows/bench/report_page.h"
 
 namespace workflows {
 namespace {
@@ -20,29 +16,6 @@ using Cells = std::vector<std::string>;
 
 // How the names of the cases begin that are not rows of goals.
 constexpr const char* kBesideRows[] = {"time-", "effort-", "budget-", "front-"};
-
-/// Figures by case and name; those that are not there are not numbers.
-class FigureTable {
- public:
-  explicit FigureTable(const std::vector<ReportedFigure>& figures) {
-    for (const ReportedFigure& reported : figures)
-      if (reported.figure.value) values_[{reported.case_name, reported.figure.name}] = *reported.figure.value;
-  }
-  double operator()(const std::string& case_name, const std::string& figure) const {
-    const auto found = values_.find({case_name, figure});
-    return found == values_.end() ? std::numeric_limits<double>::quiet_NaN() : found->second;
-  }
-
- private:
-  std::map<std::pair<std::string, std::string>, double> values_;
-};
-
-std::string machine() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "an unnamed processor";
-}
 
 /// The rows measured under a cap of faces.
 std::vector<GoalRow> measured_rows(const FigureTable& figures, int face_cap) {
@@ -187,16 +160,6 @@ std::string section(const std::string& heading, const std::string& text, const s
   return "\n## " + heading + "\n\n" + text + "\n\n" + table;
 }
 
-/// Today, UTC.
-std::string date() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  gmtime_r(&now, &parts);
-  char text[16];
-  std::strftime(text, sizeof text, "%Y-%m-%d", &parts);
-  return text;
-}
-
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
@@ -220,8 +183,8 @@ std::string spent_text(const FigureTable& figures, const std::vector<std::string
 std::string head(const std::vector<ReportedFigure>& figures, const PageFrame& frame) {
   std::string page = "# Convex decomposition: error, time, front\n\nWritten by `talus bench decomposition --scans DIR" +
                      (frame.seeds == BenchOptions{}.seeds ? "" : " --seeds " + std::to_string(frame.seeds)) + "` on " +
-                     date() + ", " + std::to_string(frame.seeds) + (frame.seeds == 1 ? " seed" : " seeds") +
-                     " a row, on " + machine() +
+                     today() + ", " + std::to_string(frame.seeds) + (frame.seeds == 1 ? " seed" : " seeds") +
+                     " a row, on " + processor_name() +
                      ". Errors are those of the measure that stands apart from the search: volumes by exact rays, "
                      "surfaces by sample points. Errors and rules are the same on every machine, times are not. " +
                      spent_text(FigureTable(figures), frame.cases) + "\n";

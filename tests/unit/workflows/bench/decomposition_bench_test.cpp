@@ -14,9 +14,9 @@
 #include "workflows/bench/decomposition/bench_levels.h"
 #include "workflows/bench/decomposition/decomposition_page.h"
 #include "workflows/bench/decomposition/goal_rows.h"
-#include "workflows/bench/decomposition/markdown_table.h"
 #include "workflows/bench/decomposition/search_study.h"
 #include "workflows/bench/decomposition/solids.h"
+#include "workflows/bench/report_page.h"
 
 namespace {
 
