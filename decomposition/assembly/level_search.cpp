@@ -35,7 +35,45 @@ Vec3 middle_of(const std::vector<std::vector<Vec3>>& parts) {
   return (1.0 / static_cast<double>(count)) * sum;
 }
 
+double volume_of(const std::vector<BuiltPart>& parts) {
+  double volume = 0;
+  for (const BuiltPart& part : parts) volume += figures({part.part}).smallest_volume;
+  return volume;
+}
+
+/// The parts moved by a map of points and planes and built anew; none if one collapses.
+template <class Map>
+std::vector<BuiltPart> mapped(const std::vector<BuiltPart>& parts, double snap, const Map& map) {
+  std::vector<BuiltPart> result;
+  for (const BuiltPart& part : parts) {
+    std::vector<Vec3> points;
+    for (const catalog::Point& p : part.part.vertices) points.push_back(map(to_vec3(p)));
+    Cell cell = part.cell;
+    for (Plane& plane : cell.planes) plane = map(plane);
+    std::optional<BuiltPart> built = build_part(points, cell, snap);
+    if (!built) return {};
+    result.push_back(std::move(*built));
+  }
+  return result;
+}
+
+/// Scales about a point.
+struct Scaling {
+  double factor;
+  Vec3 centre;
+
+  Vec3 operator()(const Vec3& p) const { return centre + factor * (p - centre); }
+  Plane operator()(const Plane& plane) const {
+    return {plane.normal, factor * plane.offset + (1 - factor) * dot(plane.normal, centre)};
+  }
+};
+
 }  // namespace
+
+std::vector<BuiltPart> LevelSearch::in_frame_of_mesh(std::vector<BuiltPart> parts) const {
+  if (frame_.is_identity()) return parts;
+  return mapped(parts, kExactSnap * diagonal_, [&](const auto& place) { return frame_.to_real(place); });
+}
 
 LevelSearch::LevelSearch(const catalog::TriangleMesh& mesh, const DecompositionOptions& options)
     : options_(options), frame_(mesh), race_(mesh, frame_, options) {
@@ -66,9 +104,7 @@ LevelSearch::Finish LevelSearch::finished(Partition partition) const {
   for (int round = 0; round < kVolumeRounds; ++round) {
     finish.parts = built(partition);
     if (finish.parts.empty() || options_.mode != FitMode::volume_true) break;
-    double volume = 0;
-    for (const BuiltPart& part : finish.parts) volume += figures({part.part}).smallest_volume;
-    const double ratio = race_.solid().volume() / volume;
+    const double ratio = race_.solid().volume() / volume_of(finish.parts);
     if (std::abs(ratio - 1) < kVolumeAgreement) break;
     scale_volume(partition, centre, ratio);
   }
@@ -78,21 +114,6 @@ LevelSearch::Finish LevelSearch::finished(Partition partition) const {
   });
   finish.parts = in_frame_of_mesh(std::move(finish.parts));
   return finish;
-}
-
-/// The parts built anew there, on the cuts' planes there; none if one collapses.
-std::vector<BuiltPart> LevelSearch::in_frame_of_mesh(std::vector<BuiltPart> parts) const {
-  if (frame_.is_identity()) return parts;
-  for (BuiltPart& part : parts) {
-    std::vector<Vec3> points;
-    for (const catalog::Point& p : part.part.vertices) points.push_back(frame_.to_real(to_vec3(p)));
-    Cell cell = part.cell;
-    for (Plane& plane : cell.planes) plane = frame_.to_real(plane);
-    std::optional<BuiltPart> mapped = build_part(points, cell, kExactSnap * diagonal_);
-    if (!mapped) return {};
-    part = std::move(*mapped);
-  }
-  return parts;
 }
 
 std::vector<BuiltPart> LevelSearch::built(const Partition& partition) const {
@@ -200,20 +221,31 @@ std::vector<BuiltPart> LevelSearch::found_apart(const CutTree& tree, int count) 
   for (int round = 0; round < kVolumeRounds; ++round) {
     std::vector<BuiltPart> parts = all_alone(tree, pieces, factor);
     if (parts.empty()) break;
-    double fitted_volume = 0, lack = race_.solid().volume();
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-      const double volume = figures({parts[k].part}).smallest_volume;
-      if (!tree.piece(pieces[k]).is_exact) fitted_volume += volume;
-      lack -= volume;
+    double fitted_volume = 0;
+    for (std::size_t k = 0; k < parts.size(); ++k)
+      if (!tree.piece(pieces[k]).is_exact) fitted_volume += figures({parts[k].part}).smallest_volume;
+    const double lack = race_.solid().volume() - volume_of(parts);
+    const bool is_done = fitted_volume == 0 || std::abs(lack) < kVolumeAgreement * race_.solid().volume();
+    if (std::abs(lack) < least) {
+      if (!is_done) parts = with_volume_of_mesh(parts);
+      parts = in_frame_of_mesh(std::move(parts));
+      if (is_acceptable(parts)) least = std::abs(lack), best = std::move(parts);
     }
-    if (parts = in_frame_of_mesh(std::move(parts)); std::abs(lack) < least && is_acceptable(parts)) {
-      least = std::abs(lack);
-      best = std::move(parts);
-    }
-    if (fitted_volume == 0 || std::abs(lack) < kVolumeAgreement * race_.solid().volume()) break;
+    if (is_done) break;
     factor = std::clamp(factor * (1 + lack / fitted_volume), kLeastFactor, kMostFactor);
   }
   return best;
+}
+
+/// What is still missing or too much comes by scaling all parts and their cuts, which touches no rule and no seam.
+std::vector<BuiltPart> LevelSearch::with_volume_of_mesh(const std::vector<BuiltPart>& parts) const {
+  std::vector<std::vector<Vec3>> points;
+  for (const BuiltPart& part : parts) {
+    points.emplace_back();
+    for (const catalog::Point& p : part.part.vertices) points.back().push_back(to_vec3(p));
+  }
+  const Scaling scaling{std::cbrt(race_.solid().volume() / volume_of(parts)), middle_of(points)};
+  return mapped(parts, kExactSnap * race_.solid().diagonal(), scaling);
 }
 
 FoundLevel LevelSearch::find(int parts_asked) {

@@ -41,6 +41,7 @@ class LevelSearch {
   std::optional<BuiltPart> fitted_alone(const Piece& piece, int number, double volume_factor) const;
   FoundLevel marked(std::vector<BuiltPart> parts, bool is_apart) const;
   bool is_acceptable(const std::vector<BuiltPart>& parts) const;
+  std::vector<BuiltPart> with_volume_of_mesh(const std::vector<BuiltPart>& parts) const;
   std::vector<BuiltPart> in_frame_of_mesh(std::vector<BuiltPart> parts) const;
 
   DecompositionOptions options_;

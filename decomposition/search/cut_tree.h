@@ -80,11 +80,15 @@ class CutTree {
     Piece piece;
     int born = 0;    // number of cuts made when this piece came to be
     int split = -1;  // number of the cut that ended it, -1: still a leaf
-    bool was_searched = false;
+    bool was_searched = false, was_searched_by_hulls = false;
     std::optional<Cut> best;
   };
+  /// What stands for the halves when cuts are compared.
+  enum class CompareBy { fits, hulls };
 
-  std::optional<Cut> best_cut(const Piece& piece, std::uint64_t seed) const;
+  std::optional<Cut> best_cut(const Piece& piece, std::uint64_t seed, CompareBy by) const;
+  Node* most_gainful_leaf();
+  Node* most_hopeless_leaf();
   bool is_allowed(const Piece& piece) const;
 
   Piece make_piece(Cell cell, std::uint64_t seed) const;
