@@ -78,15 +78,15 @@ void refuse_misfit(const catalog::LevelOfDetail& level) {
 
 catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, LevelSearch& search, int parts_asked,
                                   const DecompositionOptions& options) {
-  FoundLevel found = search.find(parts_asked);
+  const FoundLevel& found = search.find(parts_asked);
   if (found.parts.empty())
     throw catalog::InputError("mesh: no convex part could be fitted to it; check that it is a solid");
   catalog::LevelOfDetail level;
   level.key = {parts_asked, options.vertex_cap, options.face_cap, options.mode};
   catalog::VolumeMoments moments;
-  for (BuiltPart& part : found.parts) {
+  for (const BuiltPart& part : found.parts) {
     moments += catalog::volume_moments(catalog::triangulated(part.part));
-    level.parts.push_back(std::move(part.part));
+    level.parts.push_back(part.part);
   }
   level.mass_properties = catalog::mass_properties(moments);
   level.error = measure(level.parts);

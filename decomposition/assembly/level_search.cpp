@@ -2,12 +2,14 @@
 #include "decomposition/assembly/level_search.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "catalog/mass_properties.h"
 #include "decomposition/assembly/face_kinds.h"
+#include "decomposition/fit/column_measure.h"
 #include "decomposition/fit/part_finish.h"
 #include "decomposition/fit/partition_finish.h"
 #include "decomposition/geometry/parallel_for.h"
@@ -25,7 +27,9 @@ constexpr double kFitTries = 3;                            // at effort 1
 constexpr int kVolumeRounds = 4;           // of fitting them anew until the union has the solid's volume ...
 constexpr double kVolumeAgreement = 2e-4;  // ... to this share
 constexpr double kLeastFactor = 0.8, kMostFactor = 1.25;  // of the volume asked of parts fitted alone
-constexpr double kExactSnap = 1e-9;                       // of the size: fitted points touch their cut planes already
+// Share of the volume: inscribed parts with more void have lost the solid, so that none of its surface is in them.
+constexpr double kLargestVoid = 0.005;
+constexpr double kExactSnap = 1e-9;  // of the size: fitted points touch their cut planes already
 
 Vec3 middle_of(const std::vector<std::vector<Vec3>>& parts) {
   Vec3 sum;
@@ -33,6 +37,19 @@ Vec3 middle_of(const std::vector<std::vector<Vec3>>& parts) {
   for (const std::vector<Vec3>& points : parts)
     for (const Vec3& p : points) sum += p, ++count;
   return (1.0 / static_cast<double>(count)) * sum;
+}
+
+/// What parts hold of the void, over the solid's volume: none where they stay inside.
+double void_share(const Solid& solid, const Partition& partition) {
+  ColumnMeasure measure(solid, 1);
+  double outside = 0;
+  for (const std::vector<Vec3>& points : part_points(solid, partition)) {
+    SmallHull hull;
+    if (!hull.build(points)) return std::numeric_limits<double>::infinity();
+    const ColumnOverlap overlap = measure(points, hull.faces());
+    outside += overlap.volume - overlap.overlap;
+  }
+  return outside / solid.volume();
 }
 
 double volume_of(const std::vector<BuiltPart>& parts) {
@@ -82,7 +99,8 @@ LevelSearch::LevelSearch(const catalog::TriangleMesh& mesh, const DecompositionO
   for (const catalog::Point& p : mesh.vertices) vertices.push_back(to_vec3(p));
   columns_volume_ = race_.solid().volume_inside({});
   diagonal_ = bounding_box(vertices).diagonal();
-  smallest_volume_ = options.smallest_volume * catalog::volume_moments(mesh).volume;
+  volume_ = catalog::volume_moments(mesh).volume;
+  smallest_volume_ = options.smallest_volume * volume_;
   smallest_thickness_ = options.smallest_thickness * smallest_extent(vertices);
 }
 
@@ -96,6 +114,7 @@ LevelSearch::Finish LevelSearch::finished(Partition partition) const {
     plan.rock_weight = 1;
     const Bound bound = options_.mode == FitMode::enclosing ? Bound::holds_solid : Bound::stays_inside;
     if (!fit_to_bound(race_.solid(), partition, plan, race_.rules(), bound)) return {};
+    if (bound == Bound::stays_inside && void_share(race_.solid(), partition) > kLargestVoid) return {};
   }
   Finish finish;
   finish.misfit = joint_misfit(race_.solid(), partition);
@@ -248,7 +267,24 @@ std::vector<BuiltPart> LevelSearch::with_volume_of_mesh(const std::vector<BuiltP
   return mapped(parts, kExactSnap * race_.solid().diagonal(), scaling);
 }
 
-FoundLevel LevelSearch::find(int parts_asked) {
+const FoundLevel& LevelSearch::find(int parts_asked) {
+  if (const auto known = levels_.find(parts_asked); known != levels_.end()) return known->second;
+  FoundLevel level = searched(parts_asked);
+  if (options_.mode != FitMode::volume_true && parts_asked > 1) {
+    // A bound may cost more parts more than they gain: then fewer are better.
+    const FoundLevel& fewer = find(static_cast<int>(std::bit_floor(static_cast<unsigned>(parts_asked - 1))));
+    if (level.parts.empty() || bound_gap(fewer) < bound_gap(level)) level = fewer;
+  }
+  return levels_[parts_asked] = std::move(level);
+}
+
+/// What the parts of a bound leave between them and the mesh [m3]; infinite if there are none.
+double LevelSearch::bound_gap(const FoundLevel& level) const {
+  if (level.parts.empty()) return std::numeric_limits<double>::infinity();
+  return std::abs(volume_of(level.parts) - volume_);
+}
+
+FoundLevel LevelSearch::searched(int parts_asked) {
   for (int count = parts_asked; count > 0; --count) {
     // All trees find the exact pieces of a drawn solid, if it has any.
     const std::size_t tree =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -22,8 +23,9 @@ class LevelSearch {
  public:
   LevelSearch(const catalog::TriangleMesh& mesh, const DecompositionOptions& options);
 
-  /// At most `parts_asked` parts; no parts if none could be fitted.
-  FoundLevel find(int parts_asked);
+  /// At most `parts_asked` parts; no parts if none could be fitted. Parts that keep a bound are no farther from the
+  /// mesh than those of 1, 2, 4, ... fewer.
+  const FoundLevel& find(int parts_asked);
 
  private:
   /// The finished parts of a start, and their misfit; no parts if one collapsed.
@@ -32,6 +34,8 @@ class LevelSearch {
     double misfit = 0;             // in the round frame
     bool keeps_rules = false;      // a bound may leave no room for that
   };
+  FoundLevel searched(int parts_asked);
+  double bound_gap(const FoundLevel& level) const;
   Finish finished(Partition partition) const;
   std::vector<BuiltPart> built(const Partition& partition) const;
   std::vector<BuiltPart> found_jointly(int count);
@@ -47,8 +51,9 @@ class LevelSearch {
   DecompositionOptions options_;
   RoundFrame frame_;
   TreeRace race_;
-  double columns_volume_ = 0;                               // of the solid, by its columns
-  double diagonal_, smallest_volume_, smallest_thickness_;  // in the frame of the mesh [m], [m3]
+  double columns_volume_ = 0;                                        // of the solid, by its columns
+  double diagonal_, volume_, smallest_volume_, smallest_thickness_;  // in the frame of the mesh [m], [m3]
+  std::map<int, FoundLevel> levels_;
 };
 
 }  // namespace decomposition
