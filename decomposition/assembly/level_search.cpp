@@ -267,6 +267,21 @@ std::vector<BuiltPart> LevelSearch::with_volume_of_mesh(const std::vector<BuiltP
   return mapped(parts, kExactSnap * race_.solid().diagonal(), scaling);
 }
 
+/// The hulls of a drawn solid's pieces; none if one breaks a cap. No fit could hold the pieces with less.
+std::vector<BuiltPart> LevelSearch::found_as_hulls(const CutTree& tree, int count) const {
+  std::vector<BuiltPart> parts;
+  for (const int piece : tree.pieces(count)) {
+    const Cell& cell = tree.piece(piece).cell;
+    const std::vector<Vec3> points = capped_hull(race_.solid(), cell.planes, {options_.vertex_cap, options_.face_cap});
+    std::optional<BuiltPart> part;
+    if (!points.empty()) part = build_part(points, cell, kExactSnap * race_.solid().diagonal());
+    if (!part) return {};
+    parts.push_back(std::move(*part));
+  }
+  parts = in_frame_of_mesh(std::move(parts));
+  return is_acceptable(parts) ? parts : std::vector<BuiltPart>{};
+}
+
 const FoundLevel& LevelSearch::find(int parts_asked) {
   if (const auto known = levels_.find(parts_asked); known != levels_.end()) return known->second;
   FoundLevel level = searched(parts_asked);
@@ -291,8 +306,10 @@ FoundLevel LevelSearch::searched(int parts_asked) {
         race_.solid().is_faceted() || race_.starts(count).empty() ? 0 : race_.starts(count).front().tree;
     const CutTree& cut = race_.stage(tree, count);
     if (static_cast<int>(cut.pieces(count).size()) < count) continue;  // the tree has no more
-    bool is_apart = fits_better_apart(cut, count);
-    std::vector<BuiltPart> parts = is_apart ? found_apart(cut, count) : found_jointly(count);
+    std::vector<BuiltPart> parts =
+        options_.mode == FitMode::enclosing ? found_as_hulls(cut, count) : std::vector<BuiltPart>{};
+    const bool is_apart = !parts.empty() || fits_better_apart(cut, count);
+    if (parts.empty()) parts = is_apart ? found_apart(cut, count) : found_jointly(count);
     if (!parts.empty()) return marked(std::move(parts), is_apart);
   }
   return {};

@@ -41,6 +41,7 @@ class LevelSearch {
   std::vector<BuiltPart> found_jointly(int count);
   bool fits_better_apart(const CutTree& tree, int count);
   std::vector<BuiltPart> found_apart(const CutTree& tree, int count) const;
+  std::vector<BuiltPart> found_as_hulls(const CutTree& tree, int count) const;
   std::vector<BuiltPart> all_alone(const CutTree& tree, const std::vector<int>& pieces, double volume_factor) const;
   std::optional<BuiltPart> fitted_alone(const Piece& piece, int number, double volume_factor) const;
   FoundLevel marked(std::vector<BuiltPart> parts, bool is_apart) const;
