@@ -302,9 +302,8 @@ double LevelSearch::bound_gap(const FoundLevel& level) const {
 FoundLevel LevelSearch::searched(int parts_asked) {
   for (int count = parts_asked; count > 0; --count) {
     // All trees find the exact pieces of a drawn solid, if it has any.
-    const std::size_t tree =
-        race_.solid().is_faceted() || race_.starts(count).empty() ? 0 : race_.starts(count).front().tree;
-    const CutTree& cut = race_.stage(tree, count);
+    const bool is_first = race_.solid().is_faceted() || race_.starts(count).empty();
+    const CutTree& cut = is_first ? race_.first_tree(count) : race_.stage(race_.starts(count).front().tree, count);
     if (static_cast<int>(cut.pieces(count).size()) < count) continue;  // the tree has no more
     std::vector<BuiltPart> parts =
         options_.mode == FitMode::enclosing ? found_as_hulls(cut, count) : std::vector<BuiltPart>{};

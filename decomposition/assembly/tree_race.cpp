@@ -24,6 +24,7 @@ constexpr double kTreesOfFaceted = 2;   // the many facet planes to try make the
 constexpr double kTreesBeyondMany = 6;  // at more than kManyParts, where the choice at kFirstChoice foretells less ...
 constexpr double kTreesOfVeryMany = 3;  // ... but at more than kVeryManyParts trees are dear
 constexpr int kFirstChoice = 4, kManyParts = 8, kVeryManyParts = 16;
+constexpr double kIllFitting = 0.05;    // error of a drawn solid's pieces / its volume: worth another tree
 constexpr double kShareForTrees = 0.5;  // of a time budget
 constexpr std::size_t kMostTrees = 1000;
 constexpr double kRoomToMove = 1.3;  // on the smallest volume and thickness: the joint fits move the cuts
@@ -38,6 +39,13 @@ double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 
 /// A tree's cuts are moved to suit all parts when it has this many: early, where the later cuts hang on them.
 bool moves_cuts_at(int count) { return count == 2 || count == 4 || count == 16; }
+
+/// Sum of the pieces' errors.
+double misfit_of(const CutTree& tree, int count) {
+  double misfit = 0;
+  for (const int piece : tree.pieces(count)) misfit += tree.piece(piece).error;
+  return misfit;
+}
 
 }  // namespace
 
@@ -94,13 +102,11 @@ PartRules TreeRace::rules() const {
 void TreeRace::move_cuts(TreeStages& stages, int count) const {
   CutTree tree = stages.grown.at(count);
   const std::vector<int> pieces = tree.pieces(count);
-  double misfit = 0;
-  for (const int piece : pieces) misfit += tree.piece(piece).error;
+  double misfit = misfit_of(tree, count);
   // Cuts of a drawn solid stay on its facets.
   if (plan_.encloses && !solid_.is_faceted()) {
     tree.polish_hulls();
-    misfit = 0;
-    for (const int piece : tree.pieces(count)) misfit += tree.piece(piece).error;
+    misfit = misfit_of(tree, count);
   } else if (static_cast<int>(pieces.size()) == count && !solid_.is_faceted()) {
     Partition partition = start_partition(coarse_, tree, count, options_.vertex_cap, options_.seed);
     JointPlan plan = joint_plan();
@@ -116,9 +122,10 @@ void TreeRace::move_cuts(TreeStages& stages, int count) const {
   stages.moved.emplace(count, std::move(tree));
 }
 
-const CutTree& TreeRace::grown(std::size_t tree, int count) {
-  TreeStages& stages = trees_[tree];
-  if (stages.grown.empty()) stages.grown.emplace(1, CutTree(coarse_, search_plan(tree)));
+const CutTree& TreeRace::grown(std::size_t tree, int count) { return grown(trees_[tree], count, search_plan(tree)); }
+
+const CutTree& TreeRace::grown(TreeStages& stages, int count, const SearchPlan& plan) const {
+  if (stages.grown.empty()) stages.grown.emplace(1, CutTree(coarse_, plan));
   for (int next = stages.grown.rbegin()->first + 1; next <= count; ++next) {
     if (moves_cuts_at(next - 1) && !stages.moved.contains(next - 1)) move_cuts(stages, next - 1);
     CutTree larger = (moves_cuts_at(next - 1) ? stages.moved : stages.grown).at(next - 1);
@@ -181,6 +188,16 @@ std::vector<std::size_t> TreeRace::racing_trees(int count) {
 const CutTree& TreeRace::stage(std::size_t tree, int count) {
   if (trees_.empty()) plant_trees(count);
   return grown(tree, count);
+}
+
+const CutTree& TreeRace::first_tree(int count) {
+  const CutTree& first = stage(0, count);
+  const double misfit = misfit_of(first, count);
+  if (!solid_.is_faceted() || plan_.encloses || misfit < kIllFitting * solid_.volume()) return first;
+  SearchPlan plan = search_plan(0);
+  plan.compares_hulls = true;
+  const CutTree& other = grown(tree_of_hulls_, count, plan);
+  return misfit_of(other, count) < misfit ? other : first;
 }
 
 std::vector<TreeRace::Start> TreeRace::starts_from(std::size_t tree, int count) {

@@ -37,6 +37,9 @@ class TreeRace {
   const std::vector<Start>& starts(int count);
   /// A tree when it had so many pieces, or as many as it can have.
   const CutTree& stage(std::size_t tree, int count);
+  /// The first tree; of a drawn solid that it leaves in ill-fitting pieces, one that compares hulls, if that does
+  /// better.
+  const CutTree& first_tree(int count);
 
   const Solid& solid() const { return solid_; }
   const SearchPlan& plan() const { return plan_; }
@@ -53,6 +56,7 @@ class TreeRace {
 
   SearchPlan search_plan(std::size_t tree) const;
   const CutTree& grown(std::size_t tree, int count);
+  const CutTree& grown(TreeStages& stages, int count, const SearchPlan& plan) const;
   const CutTree& polished(std::size_t tree, int count);
   void move_cuts(TreeStages& stages, int count) const;
   void plant_trees(int count);
@@ -64,6 +68,7 @@ class TreeRace {
   SearchPlan plan_;
   double started_ = 0;  // CPU time [s]
   std::vector<TreeStages> trees_;
+  TreeStages tree_of_hulls_;
   std::map<int, std::vector<Start>> starts_;
 };
 

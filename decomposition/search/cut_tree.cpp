@@ -150,8 +150,8 @@ CutTree::Node* CutTree::most_gainful_leaf() {
     Node& node = nodes_[n];
     if (node.split >= 0) continue;
     if (!node.was_searched) {
-      node.best =
-          best_cut(node.piece, sub_seed(plan_.seed, 1 + n), plan_.encloses ? CompareBy::hulls : CompareBy::fits);
+      node.best = best_cut(node.piece, sub_seed(plan_.seed, 1 + n),
+                           plan_.encloses || plan_.compares_hulls ? CompareBy::hulls : CompareBy::fits);
       node.was_searched = true;
     }
     if (node.best && (!chosen || node.best->gain > chosen->best->gain)) chosen = &node;

@@ -23,7 +23,8 @@ struct SearchPlan {
   double smallest_thickness = 0;  // of a piece [m]
   std::uint64_t seed = 1;
   int threads = 1;
-  bool encloses = false;  // stand-ins leave nothing out: hulls instead of fits
+  bool encloses = false;        // stand-ins leave nothing out: hulls instead of fits
+  bool compares_hulls = false;  // cuts are compared by hulls even so
 };
 
 /// Intersection of half-spaces that bounds a piece: one plane per cut on the way down the tree.
