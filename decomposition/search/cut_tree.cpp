@@ -96,7 +96,8 @@ bool CutTree::is_allowed(const Piece& piece) const {
 }
 
 std::optional<CutTree::Cut> CutTree::best_cut(const Piece& piece, std::uint64_t seed, CompareBy by) const {
-  if (piece.is_exact || piece.error < kSmallestGain * solid_.volume()) return std::nullopt;
+  const bool is_tight = piece.error < kSmallestGain * solid_.volume() && !(plan_.encloses && by == CompareBy::fits);
+  if (piece.is_exact || is_tight) return std::nullopt;
   Random random(seed);
   const std::vector<Vec3> points = solid_.points_inside(piece.cell.planes, kPointsAPiece, random);
   SearchPlan plan = plan_;
@@ -159,19 +160,22 @@ CutTree::Node* CutTree::most_gainful_leaf() {
   return chosen && chosen->best->gain >= kSmallestGain * solid_.volume() ? chosen : nullptr;
 }
 
-/// The leaf that fits worst, of thin shells and the like, where nothing fits before the last cut: cut so that the
-/// halves' hulls hold least. None if all fit or cannot be cut.
-CutTree::Node* CutTree::most_hopeless_leaf() {
-  if (plan_.encloses) return nullptr;
+/// Where no cut gains, by the other measure. Of fits: the leaf that fits worst, of thin shells and the like, where
+/// nothing fits before the last cut, cut so that the halves' hulls hold least. Of hulls: the largest leaf, cut so that
+/// capped parts fit the halves best. None if all fit or cannot be cut.
+CutTree::Node* CutTree::leaf_without_gain() {
   Node* chosen = nullptr;
+  const auto urgency = [&](const Piece& piece) { return plan_.encloses ? piece.region.volume : piece.error; };
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     Node& node = nodes_[n];
-    if (node.split >= 0 || node.piece.error < kHopeless * node.piece.region.volume) continue;
-    if (!node.was_searched_by_hulls) {
-      node.best = best_cut(node.piece, sub_seed(plan_.seed, 1 + n), CompareBy::hulls);
-      node.was_searched_by_hulls = true;
+    if (node.split >= 0) continue;
+    if (!plan_.encloses && node.piece.error < kHopeless * node.piece.region.volume) continue;
+    if (!node.was_searched_otherwise) {
+      node.best =
+          best_cut(node.piece, sub_seed(plan_.seed, 1 + n), plan_.encloses ? CompareBy::fits : CompareBy::hulls);
+      node.was_searched_otherwise = true;
     }
-    if (node.best && (!chosen || node.piece.error > chosen->piece.error)) chosen = &node;
+    if (node.best && (!chosen || urgency(node.piece) > urgency(chosen->piece))) chosen = &node;
   }
   return chosen;
 }
@@ -179,7 +183,7 @@ CutTree::Node* CutTree::most_hopeless_leaf() {
 void CutTree::grow(int count) {
   while (static_cast<int>(cuts_.size()) + 1 < count) {
     Node* chosen = most_gainful_leaf();
-    if (!chosen) chosen = most_hopeless_leaf();
+    if (!chosen) chosen = leaf_without_gain();
     if (!chosen) return;
     const int number = static_cast<int>(cuts_.size());
     Cut cut = std::move(*chosen->best);
@@ -247,7 +251,7 @@ void CutTree::move_cuts(const std::vector<Plane>& cuts) {
     node.piece.cell = placed(node.piece.cell, cuts);
     if (node.split >= 0) continue;
     node.piece = make_piece(node.piece.cell, sub_seed(plan_.seed, 5000000 + n));
-    node.was_searched = node.was_searched_by_hulls = false;
+    node.was_searched = node.was_searched_otherwise = false;
     node.best.reset();
   }
 }

@@ -81,7 +81,7 @@ class CutTree {
     Piece piece;
     int born = 0;    // number of cuts made when this piece came to be
     int split = -1;  // number of the cut that ended it, -1: still a leaf
-    bool was_searched = false, was_searched_by_hulls = false;
+    bool was_searched = false, was_searched_otherwise = false;
     std::optional<Cut> best;
   };
   /// What stands for the halves when cuts are compared.
@@ -89,7 +89,7 @@ class CutTree {
 
   std::optional<Cut> best_cut(const Piece& piece, std::uint64_t seed, CompareBy by) const;
   Node* most_gainful_leaf();
-  Node* most_hopeless_leaf();
+  Node* leaf_without_gain();
   bool is_allowed(const Piece& piece) const;
 
   Piece make_piece(Cell cell, std::uint64_t seed) const;
