@@ -101,7 +101,7 @@ LevelSearch::LevelSearch(const catalog::TriangleMesh& mesh, const DecompositionO
   diagonal_ = bounding_box(vertices).diagonal();
   volume_ = catalog::volume_moments(mesh).volume;
   smallest_volume_ = options.smallest_volume * volume_;
-  smallest_thickness_ = options.smallest_thickness * smallest_extent(vertices);
+  smallest_thickness_ = options.smallest_thickness * smallest_extent(vertices, frame_);
 }
 
 LevelSearch::Finish LevelSearch::finished(Partition partition) const {

@@ -61,7 +61,7 @@ TreeRace::TreeRace(const catalog::TriangleMesh& mesh, const RoundFrame& frame, c
   plan_.vertex_cap = options.vertex_cap;
   plan_.face_cap = options.face_cap;
   plan_.smallest_volume = options.smallest_volume * solid_.volume();
-  plan_.smallest_thickness = options.smallest_thickness * smallest_extent(solid_.vertices());
+  plan_.smallest_thickness = options.smallest_thickness * smallest_extent(solid_.vertices(), RoundFrame());
 }
 
 int TreeRace::threads() const {

@@ -2,9 +2,10 @@
 #include "decomposition/solid/round_frame.h"
 
 #include <cmath>
-#include <vector>
+#include <limits>
 
 #include "catalog/mass_properties.h"
+#include "decomposition/geometry/random.h"
 
 namespace decomposition {
 namespace {
@@ -67,6 +68,22 @@ Plane RoundFrame::to_real(const Plane& plane) const {
   const double length = norm(normal);
   const Vec3 unit = (1 / length) * normal;
   return {unit, plane.offset / length + dot(unit, centre_)};
+}
+
+double smallest_extent(const std::vector<Vec3>& points, const RoundFrame& frame) {
+  double thickness = std::numeric_limits<double>::infinity();
+  constexpr int kSpread = 200;
+  for (int d = 0; d < kSpread + 3; ++d) {
+    const Vec3 axis{d == kSpread ? 1.0 : 0.0, d == kSpread + 1 ? 1.0 : 0.0, d == kSpread + 2 ? 1.0 : 0.0};
+    const Vec3 direction = frame.to_real(Plane{d < kSpread ? spread_direction(d, 2 * kSpread) : axis, 0}).normal;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const Vec3& p : points) {
+      low = std::fmin(low, dot(direction, p));
+      high = std::fmax(high, dot(direction, p));
+    }
+    thickness = std::fmin(thickness, high - low);
+  }
+  return thickness;
 }
 
 }  // namespace decomposition

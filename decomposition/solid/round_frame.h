@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "catalog/triangle_mesh.h"
 #include "decomposition/geometry/vector3.h"
@@ -13,6 +14,7 @@ namespace decomposition {
 /// fit, its margins and the rules on edges and faces suit round bodies. Compact bodies stay as they are.
 class RoundFrame {
  public:
+  RoundFrame() = default;  // leaves all as it is
   /// Of a solid with its principal axes; as it is, unless they differ by more than kLongestCompact.
   explicit RoundFrame(const catalog::TriangleMesh& mesh);
 
@@ -28,5 +30,8 @@ class RoundFrame {
   std::array<Vec3, 3> axes_;                // principal, unit, right-handed
   std::array<double, 3> stretch_{1, 1, 1};  // along them, from the round frame to the real one: a power of two, >= 1
 };
+
+/// Smallest extent of points over directions spread in the frame, and its axes: a little above their true width.
+double smallest_extent(const std::vector<Vec3>& points, const RoundFrame& frame);
 
 }  // namespace decomposition

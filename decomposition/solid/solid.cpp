@@ -2,7 +2,6 @@
 #include "decomposition/solid/solid.h"
 
 #include <algorithm>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -155,22 +154,6 @@ std::vector<Vec3> Solid::points_inside(const std::vector<Plane>& cell, int count
     passed += s.high - s.low;
   }
   return points;
-}
-
-double smallest_extent(const std::vector<Vec3>& points) {
-  double thickness = std::numeric_limits<double>::infinity();
-  constexpr int kSpread = 200;
-  for (int d = 0; d < kSpread + 3; ++d) {
-    const Vec3 axis{d == kSpread ? 1.0 : 0.0, d == kSpread + 1 ? 1.0 : 0.0, d == kSpread + 2 ? 1.0 : 0.0};
-    const Vec3 direction = d < kSpread ? spread_direction(d, 2 * kSpread) : axis;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const Vec3& p : points) {
-      low = std::fmin(low, dot(direction, p));
-      high = std::fmax(high, dot(direction, p));
-    }
-    thickness = std::fmin(thickness, high - low);
-  }
-  return thickness;
 }
 
 RegionMoments moments_of_points(const std::vector<Vec3>& points, double volume) {

@@ -116,9 +116,6 @@ class Solid {
   RayIntervals columns_;
 };
 
-/// Smallest extent of points over spread directions and the axes: a little above their true width.
-double smallest_extent(const std::vector<Vec3>& points);
-
 /// Moments of a set of points that stands for a region of that volume.
 RegionMoments moments_of_points(const std::vector<Vec3>& points, double volume);
 
