@@ -60,7 +60,8 @@ struct LevelFigures {
 /// Needles and plates, more than 6 times as long as thick by their second moments, are divided and fitted in the affine
 /// frame that makes them about as long as thick (RoundFrame), as well as compact bodies are: there the rules on edges
 /// and faces hold; the figures are those of the parts as they are.
-/// `enclosing`: every point of the mesh lies in a part, without tolerance. `inscribed`: no part reaches deeper into the
+/// `enclosing`: every point of the mesh lies in a part, without tolerance (to rounding in hulls of a drawn solid's
+/// pieces, whose cuts run along its facets). `inscribed`: no part reaches deeper into the
 /// void than 1e-5 of the diagonal. A level under a bound is never farther from the mesh than those of 1, 2, 4, ...
 /// parts below it: where more parts would be, it has fewer.
 /// A convex mesh within the caps comes back as its own hull, and a solid of few flat facets as the exact convex pieces

@@ -107,6 +107,14 @@ TEST(BodyKinds, EnclosedDrawnSolidsAreHeldByTheirPiecesHulls) {
   const catalog::LevelOfDetail bowl = decompose(random_bodies::bowl(0.1), options);
   partition_checks::expect_partition(bowl);
   EXPECT_NEAR(bowl.error.volume_error, 0, 1e-9);  // five boxes
+  Random random(3);
+  const Frame frame = random_frame(random);
+  catalog::TriangleMesh turned = solids::scaled(solids::l_shape(), {20, 20, 1});
+  for (catalog::Point& p : turned.vertices) p = to_point(frame(to_vec3(p)));
+  const catalog::LevelOfDetail level = decompose(turned, options);
+  partition_checks::expect_partition(level);
+  EXPECT_EQ(level.parts.size(), 2u);
+  EXPECT_NEAR(level.error.volume_error, 0, 1e-9);
 }
 
 // One convex part cannot stand for a thin shell.
