@@ -68,6 +68,9 @@ struct DecompositionError {
   friend bool operator==(const DecompositionError&, const DecompositionError&) = default;
 };
 
+/// A level has at most so many parts.
+inline constexpr int kMostParts = 256;
+
 /// Tells the levels of one shape apart: a level made with the same key takes the place of the one before.
 struct LevelKey {
   int parts_asked = 0;  // 1, 2, 4, 8, ...: a level has at most as many parts
@@ -78,13 +81,17 @@ struct LevelKey {
   friend bool operator==(const LevelKey&, const LevelKey&) = default;
 };
 
-/// "8 parts of at most 32 vertices and 24 faces, enclosing"; what is usual (no cap of faces, volume-true) is left out.
-inline std::string described(const LevelKey& key) {
-  std::string text = std::to_string(key.parts_asked) + (key.parts_asked == 1 ? " part" : " parts") + " of at most " +
-                     std::to_string(key.vertex_cap) + " vertices";
+/// "of at most 32 vertices and 24 faces, enclosing"; what is usual (no cap of faces, volume-true) is left out.
+inline std::string described_limits(const LevelKey& key) {
+  std::string text = "of at most " + std::to_string(key.vertex_cap) + " vertices";
   if (key.face_cap > 0) text += " and " + std::to_string(key.face_cap) + " faces";
   if (key.mode != FitMode::volume_true) text += ", " + mode_name(key.mode);
   return text;
+}
+
+/// "8 parts of at most 32 vertices and 24 faces, enclosing"
+inline std::string described(const LevelKey& key) {
+  return std::to_string(key.parts_asked) + (key.parts_asked == 1 ? " part " : " parts ") + described_limits(key);
 }
 
 /// One level of detail of a shape: a partition into convex parts in the frame of ShapeRecord::mesh.

@@ -26,6 +26,12 @@ bool contains(const std::array<std::string_view, N>& endings, const std::string&
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
+/// What cannot even be looked at, such as a link that leads nowhere, is no folder.
+bool leads_to_folder(const std::filesystem::directory_entry& entry) {
+  std::error_code error;
+  return entry.is_directory(error);
+}
+
 }  // namespace
 
 ScanKind scan_kind(const std::filesystem::path& path) {
@@ -52,7 +58,7 @@ std::vector<std::filesystem::path> scan_files(const std::vector<std::filesystem:
     }
     std::vector<std::filesystem::path> found;
     for (const auto& entry : std::filesystem::directory_iterator(input))
-      if (entry.is_regular_file() && has_scan_ending(entry.path()) && ending_of(entry.path()) != ".txt")
+      if (!leads_to_folder(entry) && has_scan_ending(entry.path()) && ending_of(entry.path()) != ".txt")
         found.push_back(entry.path());
     if (found.empty())
       refuse_file(input, "", "no scan files in this folder", "put PLY, PCD, XYZ, STL, OBJ or OFF files there");

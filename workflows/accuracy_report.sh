@@ -59,7 +59,7 @@ bench_tables() {
     fi
     sed 's/^# /### /' "$kept/$name.md"
     for plot in "$kept/${name}"_*.svg; do
-      grep -qs -e '<polyline' -e '<circle' "$plot" || continue  # a plot of cases that were not run is empty
+      [ -e "$plot" ] || continue  # no plot for cases that were not run
       cp "$plot" "$2/"
       printf '\n%s\n' "![$(basename "$plot" .svg)](${2#docs/}/$(basename "$plot"))"
     done

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <variant>
 
 #include "catalog/input_error.h"
@@ -14,6 +13,7 @@
 #include "workflows/bench/bench_report.h"
 #include "workflows/bench/case_file.h"
 #include "workflows/bench/log_plot.h"
+#include "workflows/command_options.h"
 #include "workflows/stage_tool.h"
 
 namespace {
@@ -55,10 +55,8 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
   app.add_option("--case", options.only_case, "this case alone");
   app.add_option("--json", options.json, "file for the figures, one JSON object a line");
   app.add_option("--out", options.out, "folder for table, plots and, without --json, the figures");
-  app.add_option("--threads", options.threads,
-                 "thread counts to compare, such as 1,2; default: the engine's own choice")
-      ->delimiter(',')
-      ->check(CLI::Range(1, 1000000));
+  add_number_list(app, "--threads", options.threads, {1, 1000000},
+                  "thread counts to compare, such as 1,2; default: the engine's own choice");
   app.add_option("--catalog", options.catalogue, "shape catalogue, for the benches levels and parts");
   app.add_option("--scans", options.scans, "folder of scans, for the bench decomposition");
   app.add_option("--seeds", options.seeds, "searches of each level, for the bench decomposition")
@@ -70,7 +68,7 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error, std::cout, std::cerr) == 0 ? kDone : kUsage;
+    return ended_status(app, error);
   }
   if (!options.is_list && options.bench.empty())
     throw catalog::UsageError("no NAME; talus bench --list names the benches");
@@ -181,6 +179,8 @@ void write_files(const Bench& bench, const BenchPlan& plan, const Measured& meas
   std::string page = plan.page ? plan.page(measured.figures)
                                : markdown_table("talus bench " + bench.name + ": " + bench.summary, measured.figures);
   for (const PlotAxes& axes : plan.plots) {
+    const auto is_drawn = [&](const PlotCurve& curve) { return curve.plot == axes.name; };
+    if (std::none_of(measured.curves.begin(), measured.curves.end(), is_drawn)) continue;  // its cases were not run
     const std::string plot = stem + "_" + axes.name + ".svg";
     write_whole(options.out / plot, log_plot_svg(axes, measured.curves));
     if (plan.page) page += "\n![" + axes.title + "](" + plot + ")\n";

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <map>
 
 #include "catalog/input_error.h"
 #include "catalog/nearest_word.h"
 #include "catalog/shape_catalog.h"
 #include "workflows/catalog_listing.h"
+#include "workflows/command_options.h"
+#include "workflows/level_choice.h"
 #include "workflows/mesh_export.h"
 #include "workflows/shape_sampling.h"
 #include "workflows/stage_tool.h"
@@ -67,7 +68,7 @@ void declare_options(CLI::App& app, CatalogOptions& options) {
              "Example: talus catalog sample ore.talus --count 100 --seed 7 --select 'failed_checks = 0'\nNames drawn "
              "at random with replacement; the same seed gives the same names everywhere.");
   sample->add_option("--count", options.count, "how many")->required()->check(CLI::Range(1, 100'000'000));
-  sample->add_option("--seed", options.seed, "of the random numbers")->capture_default_str();
+  add_seed(*sample, "--seed", options.seed, "of the random numbers");
   sample->add_option("--select", options.expression, "draw from the shapes of this query");
   sample->add_option("--weight", options.weight,
                      "probability in proportion to volume, face_count or a descriptor; equal if not given");
@@ -84,10 +85,10 @@ void declare_options(CLI::App& app, CatalogOptions& options) {
       ->check(CLI::Range(1, 1000000));
   write->add_option("--face-cap", options.face_cap, "of the level; one without a cap if not given")
       ->check(CLI::Range(0, 1000000));
-  std::map<std::string, catalog::FitMode> modes;
-  for (const std::string& name : catalog::mode_names()) modes[name] = *catalog::mode_named(name);
-  write->add_option("--mode", options.mode, "of the level; volume-true if not given")
-      ->transform(CLI::CheckedTransformer(modes));
+  add_word(
+      *write, "--mode", catalog::mode_names(),
+      [&](std::size_t mode) { options.mode = static_cast<catalog::FitMode>(mode); },
+      "of the level: volume-true (if not given), enclosing or inscribed");
   action("rejected", "Example: talus catalog rejected ore.talus\nInputs that could not be used, with the reason.");
 }
 
@@ -145,15 +146,13 @@ std::vector<ShapeSummary> sampled(const ShapeCatalog& catalog, const CatalogOpti
 catalog::LevelKey level_key(const ShapeSummary& shape, const CatalogOptions& options) {
   catalog::LevelKey key{options.level, options.vertex_cap, options.face_cap, options.mode};
   if (key.vertex_cap > 0) return key;
-  std::string kept;
-  for (const auto& level : shape.levels) {
+  for (const auto& level : shape.levels)
     if (level.key.parts_asked == key.parts_asked && level.key.face_cap == key.face_cap && level.key.mode == key.mode)
       key.vertex_cap = std::max(key.vertex_cap, level.key.vertex_cap);
-    kept += (kept.empty() ? "" : "; ") + described(level.key);
-  }
   if (key.vertex_cap == 0)
-    throw InputError("--level " + std::to_string(options.level) + ": " + shape.name + " has no such level; " +
-                     (kept.empty() ? "it has none, run talus decompose first" : "it has " + kept));
+    throw InputError(
+        "--level " + std::to_string(options.level) + ": " + shape.name + " has no such level; " +
+        (shape.levels.empty() ? "it has none, run talus decompose first" : "it has " + listed(shape.levels)));
   return key;
 }
 
@@ -214,7 +213,7 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
     options.action = app.get_subcommands().front()->get_name();
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kUsage;
+    return ended_status(app, error);
   }
   return run_stage("catalog", [&] {
     const std::string text = answer(options);

@@ -4,11 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 
 #include "catalog/input_error.h"
+#include "workflows/command_options.h"
 #include "workflows/decompose_batch.h"
 #ifdef TALUS_WITH_DIGITIZE
 #include "workflows/digitize_batch.h"
@@ -22,7 +23,7 @@ using namespace workflows;
 struct CommandLine {
   std::vector<std::filesystem::path> inputs;
   std::string into, unit;  // of scans
-  int genus = 0;
+  std::optional<int> genus;
   DecomposeBatchOptions batch;
   bool json = false;
 };
@@ -37,6 +38,18 @@ CLI::Validator finite_number() {
       "");
 }
 
+CLI::Validator face_cap() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        int value = 0;
+        const bool is_number = CLI::detail::lexical_cast(text, value);
+        return is_number && (value == 0 || (value >= 8 && value <= 124))
+                   ? std::string()
+                   : "expected 8 to 124 faces, or 0 for no cap, found '" + text + "'";
+      },
+      "");
+}
+
 void declare_options(CLI::App& app, CommandLine& line) {
   app.name("talus decompose");
   app.set_version_flag("--version", tool_version());
@@ -46,35 +59,32 @@ void declare_options(CLI::App& app, CommandLine& line) {
       ->required();
   app.add_option("--into", line.into, "digitise the scans into this catalogue first, as talus digitize would");
   app.add_option("--unit", line.unit, "with --into: length unit of the scans, such as mm");
-  app.add_option("--genus", line.genus, "with --into: handles of each particle, 0 for a stone, 1 for a ring")
-      ->check(CLI::Range(0, 100))
-      ->capture_default_str();
-  app.add_option("--parts", line.batch.part_counts, "levels: most convex parts of each, 1 to 256")
-      ->delimiter(',')
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
-  app.add_option("--vertices", line.batch.vertex_caps,
-                 "most vertices a part, 8 to 64; several, such as 16,32,64, make a ladder of each")
-      ->delimiter(',')
-      ->check(CLI::Range(8, 64))
-      ->capture_default_str();
+  app.add_option("--genus", line.genus,
+                 "with --into: handles of each particle, 0 (if not given) for a stone, 1 for a ring")
+      ->check(CLI::Range(0, 100));
+  add_number_list(app, "--parts", line.batch.part_counts, {1, catalog::kMostParts},
+                  "levels: most convex parts of each, 1 to " + std::to_string(catalog::kMostParts));
+  add_number_list(app, "--vertices", line.batch.vertex_caps, {8, 64},
+                  "most vertices a part, 8 to 64; several, such as 16,32,64, make a ladder of each");
   app.add_option("--faces", quality.face_cap,
-                 "most faces a part, faces in one plane counted as one, 8 to 124; 0: no cap")
-      ->check(CLI::Range(8, 124) | CLI::IsMember({0}));
-  std::map<std::string, catalog::FitMode> modes;
-  for (const std::string& name : catalog::mode_names()) modes[name] = *catalog::mode_named(name);
-  app.add_option("--mode", quality.mode, "volume-true (the mesh's volume), enclosing (nothing missing), inscribed")
-      ->transform(CLI::CheckedTransformer(modes));
-  const std::map<std::string, decomposition::SeparateBodies> bodies{{"join", decomposition::SeparateBodies::join},
-                                                                    {"largest", decomposition::SeparateBodies::largest},
-                                                                    {"refuse", decomposition::SeparateBodies::refuse}};
-  app.add_option("--bodies", quality.bodies, "of a mesh of several bodies: join them in one grain, largest, refuse")
-      ->transform(CLI::CheckedTransformer(bodies));
+                 "most faces a part, faces in one plane counted as one, 8 to 124; 0 (if not given): no cap")
+      ->check(face_cap());
+  add_word(
+      app, "--mode", catalog::mode_names(),
+      [&](std::size_t mode) { quality.mode = static_cast<catalog::FitMode>(mode); },
+      "volume-true (if not given; the mesh's volume), enclosing (nothing missing; bodies in a fill weigh what the "
+      "level's larger volume weighs) or inscribed (nothing sticks out; they weigh less)");
+  using decomposition::SeparateBodies;
+  const std::vector<SeparateBodies> choices{SeparateBodies::join, SeparateBodies::largest, SeparateBodies::refuse};
+  std::vector<std::string> words;
+  for (const SeparateBodies choice : choices) words.push_back(bodies_name(choice));
+  add_word(
+      app, "--bodies", words, [&quality, choices](std::size_t k) { quality.bodies = choices[k]; },
+      "of a mesh of several bodies: join (if not given) them in one grain, keep the largest, or refuse");
   app.add_option("--time-budget", quality.time_budget,
                  "CPU seconds a shape for looking for cuts; the result then depends on the machine; 0: by --effort")
       ->check(finite_number() & CLI::Range(0.0, 1e6));
-  app.add_option("--seed", quality.seed, "of the random numbers; the same seed gives the same bytes")
-      ->capture_default_str();
+  add_seed(app, "--seed", quality.seed, "of the random numbers; the same seed gives the same bytes");
   app.add_option("--effort", quality.effort, "more looks for better cuts, time in proportion")
       ->check(finite_number() & CLI::Range(0.1, 100.0))
       ->capture_default_str();
@@ -87,6 +97,7 @@ void declare_options(CLI::App& app, CommandLine& line) {
 struct Scans {
   std::vector<std::string> names;  // in the catalogue
   std::vector<DecomposeBatchResult::Failure> failures;
+  std::string failed_checks;  // of the shapes stored, see failed_checks_text()
 };
 
 #ifdef TALUS_WITH_DIGITIZE
@@ -95,7 +106,7 @@ Scans digitized(const CommandLine& line) {
   options.inputs = line.inputs;
   options.catalog_path = line.into;
   options.settings.unit = line.unit;
-  options.settings.genus = line.genus;
+  options.settings.genus = line.genus.value_or(0);
   DigitizeBatch batch(options);
   batch.run();
   Scans scans;
@@ -104,6 +115,7 @@ Scans digitized(const CommandLine& line) {
       scans.failures.push_back({outcome.name, outcome.reason});
     else
       scans.names.push_back(outcome.name);
+  scans.failed_checks = failed_checks_text(batch.outcomes());
   return scans;
 }
 #else
@@ -132,6 +144,7 @@ void check_inputs(const CommandLine& line) {
     throw catalog::UsageError(std::to_string(line.inputs.size()) +
                               " inputs, expected one catalogue; scans need --into ore.talus");
   if (line.into.empty() && !line.unit.empty()) throw catalog::UsageError("--unit is for scans; add --into ore.talus");
+  if (line.into.empty() && line.genus) throw catalog::UsageError("--genus is for scans; add --into ore.talus");
   if (!line.into.empty() && !line.batch.select.empty())
     throw catalog::UsageError("--select is for the shapes of a catalogue; name the scans instead");
 }
@@ -150,6 +163,7 @@ DecomposeBatchResult decompose_with_progress(const DecomposeBatchOptions& option
 int decompose_all(CommandLine line) {
   check_inputs(line);
   DecomposeBatchResult result;
+  std::string failed_checks;
   if (line.into.empty()) {
     line.batch.catalog = line.inputs.front().string();
     result = decompose_with_progress(line.batch);
@@ -157,6 +171,7 @@ int decompose_all(CommandLine line) {
     Scans scans = digitized(line);
     line.batch.catalog = line.into;
     line.batch.names = std::move(scans.names);
+    failed_checks = std::move(scans.failed_checks);
     if (!line.batch.names.empty()) result = decompose_with_progress(line.batch);
     result.failures.insert(result.failures.begin(), scans.failures.begin(), scans.failures.end());
   }
@@ -165,7 +180,9 @@ int decompose_all(CommandLine line) {
     throw std::runtime_error("stdout cannot be written");
   for (const auto& failure : result.failures)
     std::fprintf(stderr, "talus decompose: %s: not decomposed: %s\n", failure.shape.c_str(), failure.reason.c_str());
-  return result.failures.empty() ? kDone : kBadInput;
+  if (!failed_checks.empty()) std::fprintf(stderr, "talus decompose: %s", failed_checks.c_str());
+  if (!result.failures.empty()) return kBadInput;
+  return failed_checks.empty() ? kDone : kCheckNotPassed;
 }
 
 }  // namespace
@@ -176,12 +193,13 @@ int main(int argc, char** argv) {
       "Example: talus decompose ore.talus --parts 1,2,4,8 --vertices 32\n         talus decompose scans/ --into "
       "ore.talus "
       "--unit mm\nDivides every shape that lacks these levels into convex parts and prints their measured errors. A "
-      "scan or shape that cannot be used is listed at the end, with its reason; the exit status is then 3.");
+      "scan or shape that cannot be used is listed at the end, with its reason; the exit status is then 3, else 4 if a "
+      "shape that was digitised has a check that did not pass.");
   declare_options(app, line);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kDone : kUsage;
+    return ended_status(app, error);
   }
   return run_stage("decompose", [&] { return decompose_all(line); });
 }

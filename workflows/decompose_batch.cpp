@@ -151,6 +151,13 @@ std::string padded(const std::string& text, std::size_t width) {
   return text + std::string(text.size() < width ? width - text.size() : 0, ' ');
 }
 
+template <class... Values>
+std::string printed(const char* pattern, Values... values) {
+  char text[256];
+  std::snprintf(text, sizeof text, pattern, values...);
+  return text;
+}
+
 }  // namespace
 
 DecomposeBatchResult decompose_shapes(catalog::ShapeCatalog& shapes, const DecomposeBatchOptions& options,
@@ -194,25 +201,28 @@ DecomposeBatchResult decompose_shapes(catalog::ShapeCatalog& shapes, const Decom
 }
 
 std::string batch_text(const DecomposeBatchResult& result) {
+  const auto any = [&](auto tells) { return std::any_of(result.levels.begin(), result.levels.end(), tells); };
+  const bool has_mode = any([](const auto& row) { return row.level.key.mode != catalog::FitMode::volume_true; });
+  const bool has_face_cap = any([](const auto& row) { return row.level.key.face_cap > 0; });
   std::size_t width = 5;
   for (const DecomposedLevel& row : result.levels) width = std::max(width, row.shape.size());
-  std::string text =
-      padded("shape", width) +
-      "  asked    cap  parts  vertices  faces  difference_%  +-     missing_%  volume_%  surface_mean_%  surface_95_%"
-      "  surface_max_%  seconds\n";
+  std::string text = padded("shape", width) + (has_mode ? "  mode       " : "") + "  asked    cap" +
+                     (has_face_cap ? "  faces<=" : "") +
+                     "  parts  vertices  faces  difference_%  +-     missing_%  volume_%  surface_mean_%  surface_95_%"
+                     "  surface_max_%  seconds\n";
   for (const DecomposedLevel& row : result.levels) {
+    const catalog::LevelKey& key = row.level.key;
     const decomposition::LevelFigures figures = decomposition::figures(row.level.parts);
     const catalog::DecompositionError& error = row.level.error;
-    char line[256];
-    std::snprintf(line, sizeof line,
-                  "  %5d  %5d  %5zu  %8d  %5d  %12.3f  %5.3f  %9.3f  %8.4f  %14.3f  %12.3f  %13.3f  ",
-                  row.level.key.parts_asked, row.level.key.vertex_cap, row.level.parts.size(), figures.vertices,
-                  figures.faces, 100 * error.symmetric_difference, 100 * error.method_error, 100 * error.missing_volume,
-                  100 * error.volume_error, 100 * error.surface.mean, 100 * error.surface.percentile_95,
-                  100 * error.surface.largest);
-    char seconds[32];
-    std::snprintf(seconds, sizeof seconds, "%7.2f", row.seconds);
-    text += padded(row.shape, width) + line + (row.is_new ? seconds : "   kept") + "\n";
+    text += padded(row.shape, width);
+    if (has_mode) text += "  " + padded(mode_name(key.mode), 11);
+    text += printed("  %5d  %5d", key.parts_asked, key.vertex_cap);
+    if (has_face_cap) text += key.face_cap > 0 ? printed("  %7d", key.face_cap) : "        -";
+    text += printed("  %5zu  %8d  %5d  %12.3f  %5.3f  %9.3f  %8.4f  %14.3f  %12.3f  %13.3f  ", row.level.parts.size(),
+                    figures.vertices, figures.faces, 100 * error.symmetric_difference, 100 * error.method_error,
+                    100 * error.missing_volume, 100 * error.volume_error, 100 * error.surface.mean,
+                    100 * error.surface.percentile_95, 100 * error.surface.largest);
+    text += (row.is_new ? printed("%7.2f", row.seconds) : "   kept") + "\n";
   }
   return text;
 }

@@ -44,6 +44,7 @@ struct DecomposeBatchResult {
 DecomposeBatchResult decompose_shapes(catalog::ShapeCatalog& shapes, const DecomposeBatchOptions& options,
                                       const std::function<void(const std::string& name, std::size_t of)>& about_to);
 
+/// A table; modes and caps of faces have columns where a level is not volume-true or has such a cap.
 std::string batch_text(const DecomposeBatchResult& result);
 std::string batch_json(const DecomposeBatchResult& result);
 

@@ -12,6 +12,7 @@
 
 #include "catalog/input_error.h"
 #include "shape_pipeline/virtual_scan.h"
+#include "workflows/command_options.h"
 #include "workflows/digitize_batch.h"
 #include "workflows/stage_tool.h"
 #include "workflows/units.h"
@@ -38,7 +39,9 @@ constexpr char kDescription[] =
     "descriptors and stores them in a catalogue. A folder stands for the scan files in it. A scan that is in the\n"
     "catalogue already, from the same bytes with the same options, is skipped. A bad scan is kept as rejected with "
     "its\n"
-    "reason, and the batch goes on; the exit status is then 3.\n\n"
+    "reason, and the batch goes on; the exit status is then 3. It is 4 if all scans could be used, but a shape has a "
+    "check that did\n"
+    "not pass: such shapes are stored, and named.\n\n"
     "  talus digitize --make-virtual-scans scans/ --count 4 --seed 1\n\n"
     "writes scans of generated rocks with noise and gaps, and their truth (use --unit m --truth scans/truth.json).";
 
@@ -56,9 +59,10 @@ void declare_options(CLI::App& app, CommandLine& line) {
   app.add_option("--size", line.batch.settings.size,
                  "rescale so that the intermediate (sieve) axis has this length, such as '30 mm'");
   app.add_option("--name", line.batch.name, "name in the catalogue (one input); else the file's name without ending");
-  app.add_option("--method", line.batch.settings.method, "auto, poisson or alpha-wrap")
-      ->check(CLI::IsMember({"auto", "poisson", "alpha-wrap"}))
-      ->capture_default_str();
+  const std::vector<std::string> methods{"auto", "poisson", "alpha-wrap"};
+  add_word(
+      app, "--method", methods, [&line, methods](std::size_t k) { line.batch.settings.method = methods[k]; },
+      "auto (if not given), poisson or alpha-wrap");
   app.add_flag("--drop-nan", line.batch.settings.drops_nan,
                "drop points that are no numbers instead of refusing the cloud");
   app.add_option("--truth", line.batch.truth_path,
@@ -66,7 +70,7 @@ void declare_options(CLI::App& app, CommandLine& line) {
   app.add_flag("--json", line.is_json, "one JSON object a scan on stdout");
   app.add_option("--make-virtual-scans", line.virtual_scan_folder, "write virtual scans into this folder and stop");
   app.add_option("--count", line.count, "virtual scans")->check(CLI::Range(1, 10000))->capture_default_str();
-  app.add_option("--seed", line.seed, "seed of the virtual scans")->capture_default_str();
+  add_seed(app, "--seed", line.seed, "seed of the virtual scans");
   app.add_option("--points", line.points, "points of a virtual scan")
       ->check(CLI::Range(100, 10000000))
       ->capture_default_str();
@@ -141,10 +145,11 @@ int digitize_batch(const CommandLine& line) {
     throw;
   }
   print();
-  const std::string bad = failures_text(outcomes);
-  if (bad.empty()) return kDone;
-  std::fprintf(stderr, "digitize: %s", bad.c_str());
-  return kBadInput;
+  const std::string bad = failures_text(outcomes), failed = failed_checks_text(outcomes);
+  for (const std::string& text : {bad, failed})
+    if (!text.empty()) std::fprintf(stderr, "digitize: %s", text.c_str());
+  if (!bad.empty()) return kBadInput;
+  return failed.empty() ? kDone : kCheckNotPassed;
 }
 
 }  // namespace
@@ -157,7 +162,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? workflows::kDone : workflows::kUsage;
+    return workflows::ended_status(app, error);
   }
   return workflows::run_stage("digitize", [&] {
     return line.virtual_scan_folder.empty() ? workflows::digitize_batch(line) : workflows::make_virtual_scans(line);

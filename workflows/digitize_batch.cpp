@@ -98,6 +98,21 @@ bool is_missing(const fs::path& scan) {
   return fs::status(scan, error).type() == fs::file_type::not_found;
 }
 
+std::string missing_reason(const fs::path& scan) {
+  if (!fs::is_symlink(scan)) return scan.string() + ": no such file; check the path";
+  return scan.string() + ": is a link that leads nowhere (to " + fs::read_symlink(scan).string() +
+         "); mend or remove it";
+}
+
+/// Refuses pipes, sockets and devices: reading one may wait for ever.
+void require_file(const fs::path& scan) {
+  std::error_code error;
+  const fs::file_type type = fs::status(scan, error).type();
+  if (!error && type != fs::file_type::regular)
+    throw catalog::InputError(scan.string() +
+                              ": is no file but a pipe, socket, device or folder; copy the scan into a file");
+}
+
 /// A reason up to its first semicolon, without the file's name before it.
 std::string first_reason(const DigitizedScan& outcome) {
   std::string text = outcome.reason;
@@ -144,12 +159,15 @@ void DigitizeBatch::run() {
 DigitizeBatch::Prepared DigitizeBatch::prepare(std::size_t s) {
   const fs::path& scan = scans_[s];
   Prepared result;
-  if (is_missing(scan)) return {"missing", scan.string() + ": no such file; check the path", {}, {}};
+  if (is_missing(scan)) return {"missing", missing_reason(scan), {}, {}};
   result.provenance = {scan.filename().string(), "", tool_version(), ""};
   const auto known = truths_.find(scan.filename().string());
   const auto truth = known == truths_.end() ? std::nullopt : std::optional(known->second);
   result.provenance.options = options_text(options_.settings, truth);
-  result.reason = refusal_of(scan.string(), [&] { result.provenance.source_sha256 = catalog::sha256_of_file(scan); });
+  result.reason = refusal_of(scan.string(), [&] {
+    require_file(scan);
+    result.provenance.source_sha256 = catalog::sha256_of_file(scan);
+  });
   if (result.reason.empty()) {
     if (const auto id = catalog_->find(names_[s]); id && is_same(catalog_->shape(*id).provenance, result.provenance)) {
       result.status = "skipped";
@@ -194,6 +212,21 @@ std::string failures_text(const std::vector<DigitizedScan>& outcomes) {
   }
   if (bad == 0) return "";
   return std::to_string(bad) + " of " + std::to_string(outcomes.size()) + " scans rejected or missing:\n" + lines;
+}
+
+std::string failed_checks_text(const std::vector<DigitizedScan>& outcomes) {
+  std::string lines;
+  int count = 0;
+  for (const DigitizedScan& outcome : outcomes) {
+    if (outcome.summary.failed_checks.empty()) continue;
+    ++count;
+    lines += "  " + outcome.name + ":";
+    for (const std::string& check : outcome.summary.failed_checks) lines += " " + check;
+    lines += "\n";
+  }
+  if (count == 0) return "";
+  return std::to_string(count) + " of " + std::to_string(outcomes.size()) +
+         " scans stored with checks that did not pass (talus catalog show tells by how much):\n" + lines;
 }
 
 }  // namespace workflows

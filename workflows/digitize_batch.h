@@ -71,4 +71,7 @@ class DigitizeBatch {
 /// A heading and a line for each bad scan with its name and the first of its reasons; empty if there is none.
 std::string failures_text(const std::vector<DigitizedScan>& outcomes);
 
+/// The same for the shapes with checks that did not pass.
+std::string failed_checks_text(const std::vector<DigitizedScan>& outcomes);
+
 }  // namespace workflows

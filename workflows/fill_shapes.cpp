@@ -27,10 +27,10 @@ std::vector<Level> usable_levels(const catalog::ShapeSummary& shape, const Level
   return levels;
 }
 
-std::string listed(const std::set<int>& numbers) {
+std::string numbers_text(const std::set<int>& numbers) {
   std::string list;
   for (const int number : numbers) list += (list.empty() ? "" : ", ") + std::to_string(number);
-  return list.empty() ? "none" : list;
+  return list;
 }
 
 /// What a level is asked to be beside its number of parts: " of at most 16 vertices and 34 faces, enclosing".
@@ -43,6 +43,9 @@ std::string limits_text(const LevelFilter& filter) {
   }
   return filter.mode == catalog::FitMode::volume_true ? text : text + ", " + mode_name(filter.mode);
 }
+
+/// Of levels to make for a shape that has none of the kind.
+constexpr int kUsualParts = 8;
 
 /// The command that makes a level of that kind.
 std::string making(const CatalogueShapes& asked, int parts) {
@@ -59,18 +62,17 @@ Level level_of_parts(const catalog::ShapeSummary& shape, const FillDescription& 
   filter.vertex_cap.reset();
   filter.face_cap = asked.levels.face_cap.value_or(0);
   const std::vector<Level> levels = usable_levels(shape, filter);
-  std::set<int> caps, counts;
-  for (const Level& level : levels) {
-    counts.insert(level.key.parts_asked);
+  std::set<int> caps;
+  for (const Level& level : levels)
     if (level.key.parts_asked == *asked.parts) caps.insert(level.key.vertex_cap);
-  }
   const std::string parts = std::to_string(*asked.parts), make_it = "make it with: " + making(asked, *asked.parts);
   if (caps.empty())
     throw catalog::InputError(fill.place + ": shape '" + shape.name + "' has no level of " + parts + " parts" +
-                              limits_text(filter) + " (it has: " + listed(counts) + "); " + make_it);
+                              limits_text(filter) + " (it has " + listed(shape.levels) +
+                              (shape.levels.empty() ? "); " : "); take one of these, or ") + make_it);
   if (asked.levels.vertex_cap && !caps.contains(*asked.levels.vertex_cap))
     throw catalog::InputError(fill.place + ": shape '" + shape.name + "' has " + parts + " parts with at most " +
-                              listed(caps) + " vertices, not " + std::to_string(*asked.levels.vertex_cap) +
+                              numbers_text(caps) + " vertices, not " + std::to_string(*asked.levels.vertex_cap) +
                               "; take one of these, or " + make_it);
   const int usual = *std::min_element(caps.begin(), caps.end(), [](int a, int b) {
     return std::abs(a - kUsualVertexCap) < std::abs(b - kUsualVertexCap);
@@ -93,13 +95,17 @@ Level level_within(const catalog::ShapeSummary& shape, const FillDescription& fi
     std::snprintf(text, sizeof text, "%.4g %%", 100 * share);
     return std::string(text);
   };
-  const std::string known = best == levels.end() ? "it has no level"
-                                                 : "its best, " + described(best->key) + ", is off by " +
-                                                       percent(best->error.symmetric_difference);
+  const std::string refusal = fill.place + ": shape '" + shape.name + "' has no level" + limits_text(asked.levels) +
+                              " within tolerance = " + percent(*asked.tolerance) + " (";
+  if (best == levels.end())
+    throw catalog::InputError(refusal + "it has " + listed(shape.levels) +
+                              "); take one of these, or make some with: " + making(asked, kUsualParts));
+  const std::string known = refusal + "its best, " + described(best->key) + ", is off by " +
+                            percent(best->error.symmetric_difference) + "); allow more";
+  if (best->key.parts_asked >= catalog::kMostParts)
+    throw catalog::InputError(known + ": no level has more than " + std::to_string(catalog::kMostParts) + " parts");
   throw catalog::InputError(
-      fill.place + ": shape '" + shape.name + "' has no level" + limits_text(asked.levels) +
-      " within tolerance = " + percent(*asked.tolerance) + " (" + known +
-      "); allow more, or make finer ones with: " + making(asked, best == levels.end() ? 8 : 2 * best->key.parts_asked));
+      known + ", or make finer ones with: " + making(asked, std::min(2 * best->key.parts_asked, catalog::kMostParts)));
 }
 
 /// 0 if the catalogue has none.

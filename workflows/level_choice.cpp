@@ -2,6 +2,7 @@
 #include "workflows/level_choice.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "dem_gpu/contact_cost.h"
 
@@ -14,6 +15,22 @@ std::vector<Level> LevelFilter::operator()(const std::vector<Level>& levels) con
         level.key.face_cap == face_cap.value_or(level.key.face_cap))
       kept.push_back(level);
   return kept;
+}
+
+std::string listed(const std::vector<Level>& levels) {
+  std::vector<std::pair<std::string, std::string>> kinds;  // limits, numbers of parts
+  for (const Level& level : levels) {
+    const std::string limits = described_limits(level.key), parts = std::to_string(level.key.parts_asked);
+    const auto known = std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) { return kind.first == limits; });
+    if (known == kinds.end())
+      kinds.emplace_back(limits, parts);
+    else
+      known->second += ", " + parts;
+  }
+  std::string text;
+  for (const auto& [limits, parts] : kinds)
+    text += (text.empty() ? "" : "; ") + parts + (parts == "1" ? " part " : " parts ") + limits;
+  return text.empty() ? "no level" : text;
 }
 
 double contact_cost(const Level& level) { return dem_gpu::contact_cost(level.parts, level.faces); }

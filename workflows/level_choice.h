@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "catalog/shape_catalog.h"
@@ -21,6 +22,9 @@ struct LevelFilter {
 
   std::vector<Level> operator()(const std::vector<Level>& levels) const;
 };
+
+/// "1, 2, 4 parts of at most 32 vertices; 2 parts of at most 64 vertices, enclosing"; "no level" if there is none.
+std::string listed(const std::vector<Level>& levels);
 
 /// For each level whether no other of its mode is at most as dear and at most as wrong (symmetric difference): the
 /// curve of cost against error.

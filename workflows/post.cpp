@@ -12,6 +12,7 @@
 #include "postprocess/run_plots.h"
 #include "postprocess/run_report.h"
 #include "postprocess/vtk_export.h"
+#include "workflows/command_options.h"
 #include "workflows/picture_process.h"
 #include "workflows/stage_tool.h"
 
@@ -48,7 +49,7 @@ PostOptions parse_post_options(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    std::exit(app.exit(error) == 0 ? workflows::kDone : workflows::kUsage);
+    std::exit(workflows::ended_status(app, error));
   }
   options.has_pictures = !no_pictures;
   return options;

@@ -2,13 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
-#include <iostream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "catalog/input_error.h"
 #include "workflows/atomic_file.h"
+#include "workflows/command_options.h"
 #include "workflows/idle_settings.h"
 #include "workflows/resolved_scene.h"
 #include "workflows/run_loop.h"
@@ -63,7 +63,7 @@ std::variant<SimulateOptions, ExitStatus> parse_options(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error, std::cout, std::cerr) == 0 ? kDone : kUsage;
+    return ended_status(app, error);
   }
   options.is_resumed = resume->count() > 0;
   options.resumed_folder = resumed;

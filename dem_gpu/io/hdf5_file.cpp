@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dem_gpu/io/hdf5_file.h"
 
-#include <fcntl.h>
 #include <hdf5.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "catalog/input_error.h"
+#include "dem_gpu/io/disk_sync.h"
 
 namespace dem_gpu::io {
 namespace {
@@ -108,18 +107,7 @@ Id dataset_creation(std::size_t rows, std::size_t columns, std::size_t element_s
   return properties;
 }
 
-/// Flushes a file or folder to the disk; false with errno set if that fails.
-bool sync_to_disk(const std::filesystem::path& path) {
-  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool is_synced = fsync(descriptor) == 0;
-  close(descriptor);
-  return is_synced;
-}
-
 }  // namespace
-
-// ---- Writer
 
 struct Hdf5Writer::Handle {
   std::filesystem::path file;
@@ -238,8 +226,6 @@ void Hdf5Writer::commit() {
   // The rename itself; some file systems do not sync folders, and the file is whole either way.
   sync_to_disk(handle_->file.has_parent_path() ? handle_->file.parent_path() : std::filesystem::path("."));
 }
-
-// ---- Reader
 
 struct Hdf5Reader::Handle {
   std::filesystem::path file;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -86,6 +87,51 @@ TEST(DecomposeFolder, AnOptionThatIsNoNumberIsAUsageError) {
     EXPECT_EQ(decompose(folder, std::string("ore.talus ") + option), 2) << option;
 }
 
+/// What a command line is refused with; empty if it is not a usage error.
+std::string usage_error(const TemporaryFolder& folder, const std::string& arguments) {
+  return decompose(folder, arguments) == 2 ? read_bytes(folder / "err") : "";
+}
+
+TEST(DecomposeFolder, AnOptionIsRefusedWithWhatIsAllowedAndWhatWasFound) {
+  const TemporaryFolder folder;
+  const auto expect = [&](const std::string& option, const std::string& message) {
+    EXPECT_EQ(usage_error(folder, "ore.talus " + option),
+              "talus decompose: usage: " + message + "; see talus decompose --help\n");
+  };
+  expect("--mode foo", "--mode: expected volume-true, enclosing or inscribed, found 'foo'");
+  expect("--mode 1", "--mode: expected volume-true, enclosing or inscribed, found '1'");
+  expect("--bodies foo", "--bodies: expected join, largest or refuse, found 'foo'");
+  expect("--seed -1", "--seed: expected a whole number from 0 to 18446744073709551615, found '-1'");
+  expect("--seed 1.5", "--seed: expected a whole number from 0 to 18446744073709551615, found '1.5'");
+  const std::string parts = "--parts: expected whole numbers from 1 to 256 with commas between them, found '";
+  for (const std::string list : {"1,,2", "1,2,", ",1", "0", "257", "1x", "1.5"})
+    expect("--parts " + list, parts + list + "'");
+  expect("--vertices 16,65", "--vertices: expected whole numbers from 8 to 64 with commas between them, found '16,65'");
+  expect("--faces 5", "--faces: expected 8 to 124 faces, or 0 for no cap, found '5'");
+  EXPECT_EQ(usage_error(folder, "ore.talus --genus 0"),
+            "talus decompose: usage: --genus is for scans; add --into ore.talus\n");
+}
+
+TEST(DecomposeFolder, TheTableTellsModesAndCapsOfFacesWhereThereAreAny) {
+  const TemporaryFolder folder;
+  shape_pipeline::write_stl(folder / "box.stl", solids::box({0, 0, 0}, {1, 2, 3}));
+  const auto header = [&](const std::string& arguments) {
+    EXPECT_EQ(decompose(folder, arguments), 0) << read_bytes(folder / "err");
+    const std::string table = read_bytes(folder / "out.json");
+    return table.substr(0, table.find('\n'));
+  };
+  const std::string plain = header("box.stl --into ore.talus --unit mm --parts 1");
+  EXPECT_TRUE(plain.starts_with("shape  asked    cap  parts  vertices")) << plain;
+  const std::string capped = header("ore.talus --parts 1 --mode enclosing --faces 24");
+  EXPECT_TRUE(capped.starts_with("shape  mode         asked    cap  faces<=  parts")) << capped;
+  EXPECT_NE(read_bytes(folder / "out.json").find("\nbox    enclosing        1     32       24      1  "),
+            std::string::npos)
+      << read_bytes(folder / "out.json");
+  ASSERT_EQ(decompose(folder, "ore.talus --parts 1 --mode enclosing --faces 24 --json"), 0);
+  EXPECT_EQ(output(folder)["levels"][0]["mode"], "enclosing");
+  EXPECT_EQ(output(folder)["levels"][0]["face_cap"], 24);
+}
+
 TEST(DecomposeFolder, ASecondRunDoesWhatIsNew) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "scans");
@@ -99,6 +145,24 @@ TEST(DecomposeFolder, ASecondRunDoesWhatIsNew) {
   EXPECT_TRUE(levels[0]["new"]) << "angle";
   EXPECT_FALSE(levels[1]["new"]) << "egg";
   EXPECT_NE(read_bytes(folder / "err").find("decompose: [1/1] angle"), std::string::npos);
+}
+
+TEST(DecomposeFolder, AShapeWithACheckThatDidNotPassIsDecomposedAndTheStatusIs4) {
+  const TemporaryFolder folder;
+  // Normals that all point up are none of an ellipsoid's: the check given_normals.
+  std::string cloud;
+  constexpr int kPoints = 1500;
+  for (int i = 0; i < kPoints; ++i) {
+    const double z = 1 - (2 * i + 1.0) / kPoints, radius = std::sqrt(1 - z * z), angle = 2.399963 * i;  // golden angle
+    cloud += std::to_string(1.5 * radius * std::cos(angle)) + " " + std::to_string(radius * std::sin(angle)) + " " +
+             std::to_string(z) + " 0 0 1\n";
+  }
+  write_bytes(folder / "cloud.xyz", cloud);
+  EXPECT_EQ(decompose(folder, "cloud.xyz --into ore.talus --unit mm --parts 1 --effort 0.1 --json"), 4);
+  EXPECT_EQ(output(folder)["levels"].size(), 1u);
+  EXPECT_NE(read_bytes(folder / "err").find("  cloud: given_normals\n"), std::string::npos)
+      << read_bytes(folder / "err");
+  EXPECT_EQ(decompose(folder, "ore.talus --parts 1 --effort 0.1 --json"), 0) << "nothing is digitised";
 }
 
 TEST(DecomposeFolder, AFolderIsNoCatalogueAndOptionsOfScansNeedOne) {

@@ -4,10 +4,12 @@
 #include <memory>
 
 #include "workflows/bench/bench_registry.h"
+#include "workflows/bench/cpu_clock.h"
 #include "workflows/bench/decomposition/bench_levels.h"
 #include "workflows/bench/decomposition/decomposition_page.h"
 #include "workflows/bench/decomposition/goal_rows.h"
 #include "workflows/bench/decomposition/ladder_runs.h"
+#include "workflows/bench/decomposition/search_study.h"
 #include "workflows/bench/decomposition/solids.h"
 #include "workflows/level_choice.h"
 
@@ -68,26 +70,20 @@ CaseResult measure_time(Workbench& bench) {
 }
 
 CaseResult measure_effort(Workbench& bench) {
-  CaseResult result;
-  for (const int parts : kEffortParts) {
-    PlotCurve curve{
-        "time", kTimedSolid + ", " + std::to_string(parts) + " x " + std::to_string(kEffortVertexCap), {}, {}, {}};
-    for (const double effort : kEfforts) {
-      std::vector<LevelRun> runs;
-      for (int seed = 1; seed <= std::min(bench.seeds, kTimedSeeds); ++seed)
-        runs.push_back(
-            run_ladder(bench.solids.mesh(kTimedSolid), {parts}, bench.options({0, kEffortVertexCap}, seed, effort))
-                .front());
-      const double difference = median(runs, difference_of), time = median(runs, time_of);
-      result.figures.push_back({effort_figure(parts, effort, "symmetric difference"), difference, "%", {}, ""});
-      result.figures.push_back({effort_figure(parts, effort, "CPU time"), time, "s", {}, ""});
-      curve.x.push_back(time);
-      curve.y.push_back(difference);
-      curve.point_names.push_back(effort_figure(parts, effort, "run"));
-    }
-    result.curves.push_back(std::move(curve));
-  }
-  return result;
+  return measure_search_study(
+      kEffortStudy, std::min(bench.seeds, kTimedSeeds), [&](int parts, int seed, double effort) {
+        const DecompositionOptions options = bench.options({0, kEffortStudy.vertex_cap}, seed, effort);
+        return run_ladder(bench.solids.mesh(kTimedSolid), {parts}, options).front();
+      });
+}
+
+CaseResult measure_budgets(Workbench& bench) {
+  return measure_search_study(kBudgetStudy, std::min(bench.seeds, kTimedSeeds),
+                              [&](int parts, int seed, double budget) {
+                                DecompositionOptions options = bench.options({0, kBudgetStudy.vertex_cap}, seed);
+                                options.time_budget = budget;
+                                return run_ladder(bench.solids.mesh(kTimedSolid), {parts}, options).front();
+                              });
 }
 
 /// Figures of one level with what a contact of it costs the engine; returns that cost.
@@ -112,7 +108,7 @@ CaseResult measure_front(Workbench& bench, const FrontCase& front) {
   CaseResult result;
   for (const LevelKey& caps : front.ladders) {
     PlotCurve size{"size", front.solid + ", " + ladder_text(caps), {}, {}, {}}, cost = size;
-    cost.plot = "cost";
+    cost.plot = front.ladders.size() > 1 ? "caps" : "cost";
     for (const LevelRun& run : run_ladder(bench.solids.mesh(front.solid), kLadder, bench.options(caps, 1))) {
       size.x.push_back(run.level.key.parts_asked * caps.vertex_cap);
       cost.x.push_back(add_front_level(run, result));
@@ -122,9 +118,24 @@ CaseResult measure_front(Workbench& bench, const FrontCase& front) {
       }
     }
     if (caps.face_cap == 0) result.curves.push_back(std::move(size));
+    // One plot compares the caps on one solid, another the solids under one cap.
+    if (front.ladders.size() > 1 && caps == kFrontCaps) {
+      result.curves.push_back(cost);
+      result.curves.back().plot = "cost";
+    }
     result.curves.push_back(std::move(cost));
   }
   return result;
+}
+
+/// The same case with its time as one more figure.
+std::function<CaseResult()> timed(const std::function<CaseResult()>& measure) {
+  return [measure] {
+    const ProcessClock clock;
+    CaseResult result = measure();
+    result.figures.push_back({kCaseTime, clock.seconds(), "s", {}, ""});
+    return result;
+  };
 }
 
 void add_row_cases(BenchPlan& plan, const std::shared_ptr<Workbench>& bench) {
@@ -156,17 +167,22 @@ BenchPlan plan_decomposition_bench(const BenchOptions& options) {
   if (bench->solids.has(kTimedSolid)) {
     plan.cases.push_back({kTimeCase, [bench] { return measure_time(*bench); }});
     plan.cases.push_back({kEffortCase, [bench] { return measure_effort(*bench); }});
+    plan.cases.push_back({kBudgetCase, [bench] { return measure_budgets(*bench); }});
   }
   for (const FrontCase& front : kFrontCases)
     if (bench->solids.has(front.solid))
       plan.cases.push_back({front.name(), [bench, front] { return measure_front(*bench, front); }});
-  const std::string difference = "symmetric difference [%]";
+  PageFrame frame{bench->solids.missing(), {}, options.seeds};
+  for (BenchCase& one : plan.cases) {
+    frame.cases.push_back(one.name);
+    one.measure = timed(one.measure);
+  }
+  const std::string difference = "symmetric difference [%]", cost = "time of a contact [contacts of cubes]";
   plan.plots = {{"size", "Error against size of the level", "parts x vertices", difference},
-                {"cost", "Error against what the engine pays", "time of a contact [contacts of cubes]", difference},
+                {"cost", "Error against what the engine pays, shapes", cost, difference},
+                {"caps", "Error against what the engine pays, caps of vertices and faces", cost, difference},
                 {"time", "Error against time for the search", "CPU time [s]", difference}};
-  plan.page = [left_out = bench->solids.missing(), seeds = options.seeds](const std::vector<ReportedFigure>& figures) {
-    return decomposition_page(figures, left_out, seeds);
-  };
+  plan.page = [frame](const std::vector<ReportedFigure>& figures) { return decomposition_page(figures, frame); };
   return plan;
 }
 

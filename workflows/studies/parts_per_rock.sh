@@ -18,7 +18,10 @@ parts=1,2,4,8,16,32
 caps=16,32
 
 mkdir -p "$STUDY" "$(dirname "$PAGE")/plots"
-"$talus" digitize "$SCAN" --into "$STUDY/rock.talus" --unit "$UNIT" >&2
+status=0
+"$talus" digitize "$SCAN" --into "$STUDY/rock.talus" --unit "$UNIT" >&2 || status=$?
+# 4: stored, with a check that did not pass, which digitize has named.
+if [ "$status" -ne 0 ] && [ "$status" -ne 4 ]; then exit "$status"; fi
 "$talus" decompose "$STUDY/rock.talus" --parts "$parts" --vertices "$caps" >&2
 status=0
 "$talus" bench parts --catalog "$STUDY/rock.talus" --threads 1 --json "$STUDY/parts.json" --resume >/dev/null || status=$?

@@ -2,6 +2,7 @@
 // talus-digitize as a user runs it: exit statuses, batches, repetition.
 #include <gtest/gtest.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -89,6 +90,54 @@ TEST(DigitizeTool, AMissingScanMakesNoCatalogue) {
   EXPECT_EQ(run.status, 3);
   EXPECT_NE(run.errors.find("nowhere.stl: no such file; check the path"), std::string::npos) << run.errors;
   EXPECT_FALSE(std::filesystem::exists(folder / "ore.talus"));
+}
+
+TEST(DigitizeTool, LinksThatLeadNowhereAndPipesInAFolderAreListed) {
+  const TemporaryFolder folder;
+  const std::filesystem::path scans = folder / "scans";
+  std::filesystem::create_directories(scans / "folder.stl");
+  shape_pipeline::write_stl(scans / "box.stl", box_mesh({0, 0, 0}, {1, 2, 3}));
+  std::filesystem::create_symlink("box.stl", scans / "good_link.stl");
+  std::filesystem::create_symlink("gone.stl", scans / "dead_link.stl");
+  ASSERT_EQ(mkfifo((scans / "pipe.stl").c_str(), 0600), 0);
+  const ToolRun run = digitize(folder, "scans --into ore.talus --unit mm --json");
+  EXPECT_EQ(run.status, 3);
+  EXPECT_NE(run.errors.find("2 of 4 scans rejected or missing:"), std::string::npos) << run.errors;
+  EXPECT_NE(run.errors.find("scans/dead_link.stl: is a link that leads nowhere (to gone.stl); mend or remove it"),
+            std::string::npos)
+      << run.errors;
+  EXPECT_NE(run.errors.find("scans/pipe.stl: is no file but a pipe, socket, device or folder; copy the scan into"),
+            std::string::npos)
+      << run.errors;
+  EXPECT_NE(run.output.find("\"good_link\",\"status\":\"stored\""), std::string::npos) << run.output;
+}
+
+TEST(DigitizeTool, AShapeWithACheckThatDidNotPassIsStoredAndNamedAndTheStatusIs4) {
+  const TemporaryFolder folder;
+  shape_pipeline::write_stl(folder / "box.stl", box_mesh({0, 0, 0}, {1, 2, 3}));
+  // The truth is 6 mm3.
+  write_text(folder / "truth.json", R"({"scans": [{"file": "box.stl", "volume": 9e-9, "surface_area": 22e-6}]})");
+  for (const char* status : {"stored", "skipped"}) {
+    const ToolRun run = digitize(folder, "box.stl --into ore.talus --unit mm --truth truth.json --json");
+    EXPECT_EQ(run.status, 4) << run.errors;
+    EXPECT_NE(run.output.find(status), std::string::npos) << run.output;
+    EXPECT_NE(run.errors.find("1 of 1 scans stored with checks that did not pass"), std::string::npos) << run.errors;
+    EXPECT_NE(run.errors.find("  box: volume_error_truth"), std::string::npos) << run.errors;
+  }
+  EXPECT_EQ(digitize(folder, "box.stl none.stl --into ore.talus --unit mm --truth truth.json").status, 3)
+      << "a scan that cannot be used comes first";
+}
+
+TEST(DigitizeTool, WordsAndSeedsAreRefusedWithWhatIsAllowed) {
+  const TemporaryFolder folder;
+  const auto expect = [&](const std::string& arguments, const std::string& message) {
+    const ToolRun run = digitize(folder, arguments);
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.errors, "talus digitize: usage: " + message + "; see talus digitize --help\n");
+  };
+  expect("box.stl --method foo", "--method: expected auto, poisson or alpha-wrap, found 'foo'");
+  expect("--make-virtual-scans v --seed -1",
+         "--seed: expected a whole number from 0 to 18446744073709551615, found '-1'");
 }
 
 TEST(DigitizeTool, AFileOfAnotherKindIsNoCatalogue) {

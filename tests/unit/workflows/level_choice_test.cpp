@@ -44,6 +44,14 @@ TEST(LevelChoice, CheapestWithinTheTolerance) {
   EXPECT_FALSE(cheapest_level(LevelFilter{.vertex_cap = 64}(kLadder), 0.2));
 }
 
+TEST(LevelChoice, LevelsAreListedByTheirKind) {
+  std::vector<Level> levels{level(1, 32, 40, 0.1), level(4, 32, 40, 0.1), level(1, 64, 40, 0.1)};
+  levels.back().key.face_cap = 24;
+  levels.back().key.mode = FitMode::inscribed;
+  EXPECT_EQ(listed(levels), "1, 4 parts of at most 32 vertices; 1 part of at most 64 vertices and 24 faces, inscribed");
+  EXPECT_EQ(listed(std::vector<Level>{}), "no level");
+}
+
 TEST(LevelChoice, FilterTellsModesAndCapsApart) {
   std::vector<Level> levels = kLadder;
   levels.push_back(level(2, 32, 40, 0.09));

@@ -123,8 +123,11 @@ TEST_F(SceneAssembly, RefusesWithPlaceAndRemedy) {
   expect_refusal(scene_from_catalogue("parts = 2\nselect = \"volume > 1\""),
                  fill + "select = \"volume > 1\" finds no shape");
   expect_refusal(scene_from_catalogue("parts = 2\nselect = \"volum > 1\""), "volume");
-  expect_refusal(scene_from_catalogue("parts = 8"),
-                 fill + "shape 'flint' has no level of 8 parts (it has: 2); make it with: talus decompose");
+  expect_refusal(
+      scene_from_catalogue("parts = 8"),
+      fill +
+          "shape 'flint' has no level of 8 parts (it has 2 parts of at most 64 vertices); take one of these, "
+          "or make it with: talus decompose");
   expect_refusal(scene_from_catalogue("parts = 2\nvertices = 16"), "at most 64 vertices, not 16");
   expect_refusal(scene_from_catalogue("parts = 2\ntolerance = \"2 %\""), "tolerance stands beside parts");
   expect_refusal(scene_from_catalogue("tolerance = \"101 %\""), "at most 100 %");
@@ -132,10 +135,14 @@ TEST_F(SceneAssembly, RefusesWithPlaceAndRemedy) {
                  fill +
                      "shape 'flint' has no level within tolerance = 10 % (its best, 2 parts of at most 64 vertices, "
                      "is off by 14.29 %); allow more, or make finer ones with: talus decompose");
-  expect_refusal(scene_from_catalogue("tolerance = \"20 %\"\nvertices = 16"),
-                 "no level of at most 16 vertices within tolerance = 20 % (it has no level)");
+  expect_refusal(
+      scene_from_catalogue("tolerance = \"20 %\"\nvertices = 16"),
+      "no level of at most 16 vertices within tolerance = 20 % (it has 2 parts of at most 64 vertices); take "
+      "one of these, or make some with: talus decompose");
   expect_refusal(scene_from_catalogue("parts = 2\nmode = \"enclosing\"\nfaces = 34"),
-                 "no level of 2 parts of at most 34 faces, enclosing (it has: none); make it with: talus decompose");
+                 "no level of 2 parts of at most 34 faces, enclosing (it has 2 parts of at most 64 vertices); take one "
+                 "of these, or "
+                 "make it with: talus decompose");
   expect_refusal(scene_from_catalogue("parts = 2\nmode = \"enclosing\"\nfaces = 34"),
                  "--parts 2 --faces 34 --mode enclosing");
   expect_refusal(scene_from_catalogue("parts = 2\nmode = \"enclosed\""), "nearest known: \"enclosing\"");
@@ -168,6 +175,53 @@ TEST_F(SceneAssembly, ModeAndFaceCapChooseTheLevel) {
   EXPECT_EQ(error_of("tolerance = \"13.5 %\""), 0.13) << "any cap of faces";
   EXPECT_EQ(error_of("tolerance = \"15 %\"\nfaces = 0"), 1.0 / 7) << "none";
   EXPECT_EQ(error_of("tolerance = \"15 %\"\nmode = \"enclosing\""), 0.12);
+}
+
+TEST_F(SceneAssembly, RefusalsNameTheLevelsOfOtherKindsAndNoLevelBeyondTheMost) {
+  const auto refusal_with = [&](catalog::LevelKey key, const std::string& lines) {
+    const std::string file = "levels_" + std::to_string(key.parts_asked) + ".talus";
+    {
+      catalog::ShapeCatalog catalogue(folder_ / file, catalog::ShapeCatalog::Access::read_write);
+      const catalog::ShapeRecord shape = test_support::sample_shape("flint");
+      catalog::LevelOfDetail level = test_support::sample_level(shape, 2);
+      level.key = key;
+      level.error.symmetric_difference = 0.05;
+      catalogue.store_levels(catalogue.store_shape(shape), {level});
+    }
+    return refusal(with(scene_from_catalogue(lines), "ore.talus", file));
+  };
+  const auto expect = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  expect(refusal_with({3, 32, 24}, "parts = 3"),
+         "(it has 3 parts of at most 32 vertices and 24 faces); take one of these, or make it with");
+  expect(refusal_with({200, 32}, "tolerance = \"2 %\""),
+         "make finer ones with: talus decompose " + (folder_ / "levels_200.talus").string() + " --parts 256");
+  const std::string none_finer = refusal_with({256, 32}, "tolerance = \"2 %\"");
+  expect(none_finer, "is off by 5 %); allow more: no level has more than 256 parts");
+  EXPECT_EQ(none_finer.find("--parts"), std::string::npos) << none_finer;
+}
+
+TEST_F(SceneAssembly, BodiesWeighWhatTheirLevelWeighs) {
+  constexpr double kWider = 1.1;  // of the enclosing level, along every axis
+  {
+    catalog::ShapeCatalog catalogue(folder_ / "ore.talus", catalog::ShapeCatalog::Access::read_write);
+    const catalog::ShapeId id = *catalogue.find("flint");
+    catalog::LevelOfDetail enclosing = test_support::sample_level(catalogue.shape(id), 2);
+    enclosing.key.mode = catalog::FitMode::enclosing;
+    for (catalog::ConvexPart& part : enclosing.parts) {
+      for (catalog::Point& vertex : part.vertices)
+        for (double& x : vertex) x *= kWider;
+      for (catalog::ConvexFace& face : part.faces) face.plane.offset *= kWider;
+    }
+    catalogue.store_levels(id, {enclosing});
+  }
+  const auto one_body = [&](const std::string& lines) {
+    const AssembledScene assembled = assemble(scene_from_catalogue("select = \"name = 'flint'\"\nparts = 2\n" + lines));
+    return assembled.fills[0].mass / static_cast<double>(assembled.fills[0].bodies);
+  };
+  // Sizes are those of the mesh, so the scale is the same; rounding of a few sums of products.
+  EXPECT_NEAR(one_body("mode = \"enclosing\"") / one_body(""), std::pow(kWider, 3), 1e-9);
 }
 
 TEST_F(SceneAssembly, AMissingDescriptorIsNamedOnlyWhereItIsNeeded) {

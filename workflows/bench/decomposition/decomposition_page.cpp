@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <limits>
 #include <map>
@@ -16,6 +17,9 @@ namespace workflows {
 namespace {
 
 using Cells = std::vector<std::string>;
+
+// How the names of the cases begin that are not rows of goals.
+constexpr const char* kBesideRows[] = {"time-", "effort-", "budget-", "front-"};
 
 /// Figures by case and name; those that are not there are not numbers.
 class FigureTable {
@@ -104,14 +108,32 @@ std::string times_table(const FigureTable& figures) {
   return aligned_markdown(table);
 }
 
-std::string efforts_table(const FigureTable& figures) {
-  std::vector<Cells> table{{"shape", "parts x vertices", "effort", "difference %", "CPU s"}};
-  for (const int parts : kEffortParts)
-    for (const double effort : kEfforts)
-      table.push_back({kTimedSolid, std::to_string(parts) + " x " + std::to_string(kEffortVertexCap), fixed(effort, 2),
-                       fixed(figures(kEffortCase, effort_figure(parts, effort, "symmetric difference")), 3),
-                       fixed(figures(kEffortCase, effort_figure(parts, effort, "CPU time")), 2)});
+std::string study_table(const FigureTable& figures, const std::string& case_name, const SearchStudy& study) {
+  std::vector<Cells> table{{"shape", "parts x vertices", study.name + (study.unit.empty() ? "" : " [s]"),
+                            "difference %", "CPU s", "seeds worse than with less", "by at most %"}};
+  for (const int parts : study.parts)
+    for (const double setting : study.settings) {
+      const auto cell = [&](const char* what, int decimals) {
+        return fixed(figures(case_name, study.figure(parts, setting, what)), decimals);
+      };
+      table.push_back({kTimedSolid, study.level(parts), fixed(setting, setting < 1 ? 2 : 0),
+                       cell("symmetric difference", 3), cell("CPU time", 2),
+                       cell("seeds that less time served better", 0), cell("by at most", 3)});
+    }
   return aligned_markdown(table);
+}
+
+/// Whether more time ever made a level worse, in words.
+std::string anytime_text(const FigureTable& figures) {
+  double seeds = 0, most = 0;
+  for (const int parts : kBudgetStudy.parts)
+    for (const double setting : kBudgetStudy.settings) {
+      seeds += figures(kBudgetCase, kBudgetStudy.figure(parts, setting, "seeds that less time served better"));
+      most = std::max(most, figures(kBudgetCase, kBudgetStudy.figure(parts, setting, "by at most")));
+    }
+  if (seeds == 0) return "Here more time never made a level worse.";
+  return "Here more time made a level worse " + (seeds == 1 ? "once" : fixed(seeds, 0) + " times") + ", by " +
+         fixed(most, 3) + " % of the volume at most.";
 }
 
 struct FrontLevel {
@@ -165,29 +187,60 @@ std::string section(const std::string& heading, const std::string& text, const s
   return "\n## " + heading + "\n\n" + text + "\n\n" + table;
 }
 
-std::string head(const std::vector<std::string>& left_out, int seeds) {
-  std::string page =
-      "# Convex decomposition: error, time, front\n\nWritten by `talus bench decomposition --scans DIR` (" +
-      std::to_string(seeds) + " seeds a row) on " + machine() +
-      ". Errors are those of the measure that stands apart from the search: volumes by exact rays, surfaces by sample "
-      "points. Errors and rules are the same on every machine, times are not.\n";
-  if (left_out.empty()) return page;
-  page += "\nNot measured, for want of files:";
-  for (const std::string& name : left_out) page += (name == left_out.front() ? " " : ", ") + name;
-  return page + ".\n";
+/// Today, UTC.
+std::string date() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[16];
+  std::strftime(text, sizeof text, "%Y-%m-%d", &parts);
+  return text;
 }
 
-}  // namespace
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
 
-std::string decomposition_page(const std::vector<ReportedFigure>& figures, const std::vector<std::string>& left_out,
-                               int seeds) {
-  const FigureTable table(figures);
-  std::string page = head(left_out, seeds);
-  bool has_rows = false;
+/// CPU time of the cases measured, rows apart from what is measured beside them.
+std::string spent_text(const FigureTable& figures, const std::vector<std::string>& cases) {
+  double rows = 0, rest = 0;
+  for (const std::string& name : cases) {
+    const double time = figures(name, kCaseTime);
+    if (std::isnan(time)) continue;
+    const bool is_beside = std::any_of(std::begin(kBesideRows), std::end(kBesideRows),
+                                       [&](const char* beginning) { return name.starts_with(beginning); });
+    (is_beside ? rest : rows) += time;
+  }
+  return "This page took " + fixed((rows + rest) / 60, 1) + " CPU minutes: " + fixed(rows / 60, 1) +
+         " for the rows of goals, " + fixed(rest / 60, 1) + " for times, gains of effort and time, and fronts.";
+}
+
+std::string head(const std::vector<ReportedFigure>& figures, const PageFrame& frame) {
+  std::string page = "# Convex decomposition: error, time, front\n\nWritten by `talus bench decomposition --scans DIR" +
+                     (frame.seeds == BenchOptions{}.seeds ? "" : " --seeds " + std::to_string(frame.seeds)) + "` on " +
+                     date() + ", " + std::to_string(frame.seeds) + (frame.seeds == 1 ? " seed" : " seeds") +
+                     " a row, on " + machine() +
+                     ". Errors are those of the measure that stands apart from the search: volumes by exact rays, "
+                     "surfaces by sample points. Errors and rules are the same on every machine, times are not. " +
+                     spent_text(FigureTable(figures), frame.cases) + "\n";
+  if (!frame.left_out.empty()) page += "\nNot measured, for want of files: " + listed(frame.left_out) + ".\n";
+  std::vector<std::string> not_run = frame.cases;
+  std::erase_if(not_run, [&](const std::string& name) {
+    return std::any_of(figures.begin(), figures.end(), [&](const auto& one) { return one.case_name == name; });
+  });
+  if (!not_run.empty())
+    page += "\nNot run (`--case NAME` measures one, `--resume` all that are missing): " + listed(not_run) + ".\n";
+  return page;
+}
+
+/// The tables of goals under each cap of faces, and what else is known of their rows.
+std::string rows_sections(const FigureTable& table) {
+  std::string page;
   for (const int cap : kFaceCaps) {
     const std::vector<GoalRow> rows = measured_rows(table, cap);
     if (rows.empty()) continue;
-    has_rows = true;
     if (cap > 0)
       page += section("The same under a cap of " + std::to_string(cap) + " faces a part",
                       "Faces on one plane are one. Goals are those without the cap, for comparison.",
@@ -205,19 +258,34 @@ std::string decomposition_page(const std::vector<ReportedFigure>& figures, const
                     "points of the mesh to the parts, from points of the parts to the mesh. Centre over the diagonal; "
                     "inertia tensor over its norm; convexity is the difference in V / V_hull.",
                     errors_table(table, rows));
-  if (has_rows)
+  if (!page.empty())
     page += section("Rules",
                     "Counts and CPU time (of the ladder that holds the level, measuring included) are medians, the "
                     "others the worst of the seeds. Asked for: edges at least 1 % and faces 2 % of the size of their "
                     "part, volume error at most 0.1 % (volume-true), nothing missing (enclosing), no overlap, which is "
                     "tested exactly.",
                     rules_table(table));
+  return page;
+}
+
+}  // namespace
+
+std::string decomposition_page(const std::vector<ReportedFigure>& figures, const PageFrame& frame) {
+  const FigureTable table(figures);
+  std::string page = head(figures, frame) + rows_sections(table);
   if (has_case(figures, kTimeCase))
     page += section("Time", "CPU time of all threads, measuring included; medians of at most three seeds.",
                     times_table(table));
   if (has_case(figures, kEffortCase))
-    page +=
-        section("Effort", "What more search gains (`--effort`); medians of at most three seeds.", efforts_table(table));
+    page += section("Effort", "What more search gains (`--effort`); medians of at most three seeds.",
+                    study_table(table, kEffortCase, kEffortStudy));
+  if (has_case(figures, kBudgetCase))
+    page += section("Time budget",
+                    "What more time gains (`--time-budget`, which bounds the search; finishing and measuring the level "
+                    "come on top); medians of at most three seeds. A seed is worse than with less time where its "
+                    "difference is above one found with less by more than three standard errors of the measurement. " +
+                        anytime_text(table),
+                    study_table(table, kBudgetCase, kBudgetStudy));
   if (has_case(figures, "front-"))
     page += section("Front",
                     "The levels that no other of the shape beats in both error and cost (seed 1; ladders of 1 to 32 "

@@ -15,6 +15,7 @@
 #include "workflows/bench/decomposition/decomposition_page.h"
 #include "workflows/bench/decomposition/goal_rows.h"
 #include "workflows/bench/decomposition/markdown_table.h"
+#include "workflows/bench/decomposition/search_study.h"
 #include "workflows/bench/decomposition/solids.h"
 
 namespace {
@@ -140,11 +141,19 @@ TEST(DecompositionPage, ShowsVerdictsAndWhatWasLeftOut) {
   report(figures, "stone14-64", row_figures(rows[2], {run_of(0.1)}));
   report(figures, "stone14-64-f24", row_figures(rows[0], {run_of(0.06, 24)}));
   report(figures, "time-stone14", {{"8 parts x 64 vertices, CPU time, median", 6, "s", at_most(5), ""}});
-  const std::string page = decomposition_page(figures, {"itokawa (itokawa_radar_25143.tab)"}, 1);
+  report(figures, "stone14-64", {{kCaseTime, 90, "s", {}, ""}});
+  report(figures, "time-stone14", {{kCaseTime, 30, "s", {}, ""}});
+  const std::string page =
+      decomposition_page(figures, {{"itokawa (itokawa_radar_25143.tab)"},
+                                   {"stone14-64", "torus-64", "time-stone14", "effort-stone14", "front-torus"},
+                                   1});
   std::size_t at = 0;
-  for (const char* expected : {"for want of files: itokawa", "| stone14 | 8 x 64 ", " stretch |\n",
-                               "| stone14 | 8 x 32 ", " goal |\n", "| stone14 | 1 x 64 ", " missed |\n",
-                               "under a cap of 24 faces", "## Other errors", "## Rules", "| missed  |"}) {
+  for (const char* expected :
+       {"took 2.0 CPU minutes: 1.5 for the rows of goals, 0.5 for times", "for want of files: itokawa",
+        "Not run (`--case NAME` measures one, `--resume` all that are missing): torus-64, effort-stone14, "
+        "front-torus.\n",
+        "| stone14 | 8 x 64 ", " stretch |\n", "| stone14 | 8 x 32 ", " goal |\n", "| stone14 | 1 x 64 ", " missed |\n",
+        "under a cap of 24 faces", "## Other errors", "## Rules", "| missed  |"}) {
     const std::size_t found = page.find(expected, at);
     ASSERT_NE(found, std::string::npos) << expected << " in\n" << page;
     at = found;
@@ -162,11 +171,60 @@ TEST(DecompositionPage, TheFrontLeavesOutWhatIsDearerAndWorse) {
            {{front_figure(key, "symmetric difference"), difference, "%", {}, ""},
             {front_figure(key, "time of a contact over that of cubes"), cost, "-", {}, ""}});
   }
-  const std::string page = decomposition_page(figures, {}, 1);
+  const std::string page = decomposition_page(figures, {});
   EXPECT_NE(page.find("2 x 64 vertices"), std::string::npos) << page;
   EXPECT_NE(page.find("4 x 64 vertices"), std::string::npos);
   EXPECT_EQ(page.find("1 x 64 vertices"), std::string::npos);
   EXPECT_EQ(page.find("8 x 64 vertices"), std::string::npos);
+}
+
+/// A run with that difference [%], measured to 0.01 % of the volume.
+LevelRun measured_run(double percent) {
+  LevelRun run = run_of(percent / 100);
+  run.level.error.method_error = 1e-4;
+  run.cpu_seconds = percent;
+  return run;
+}
+
+TEST(SearchStudy, ASetbackIsAWorseLevelForMoreTimeBeyondTheMeasurementsError) {
+  // Three standard errors of two runs: 3 * sqrt(2) * 0.01 % = 0.0424 %.
+  const std::vector<LevelRun> first{measured_run(4), measured_run(5)}, second{measured_run(4.042), measured_run(4.5)};
+  EXPECT_EQ(setback({}, first).seeds, 0);
+  EXPECT_EQ(setback({first}, second).seeds, 0);
+  const Setback lost = setback({first, second}, {measured_run(4.043), measured_run(4.7)});
+  EXPECT_EQ(lost.seeds, 2) << "the second is better than the first try, not than the second";
+  EXPECT_NEAR(lost.largest, 0.2, 1e-12);
+}
+
+TEST(SearchStudy, TheAnytimePromiseIsAGoalAndThePageSaysWhetherItHeld) {
+  SearchStudy study = kBudgetStudy;
+  const auto page_of = [&](const std::vector<double>& percent, bool is_kept) {
+    std::size_t next = 0;
+    const CaseResult result =
+        measure_search_study(study, 1, [&](int, int, double) { return measured_run(percent.at(next++)); });
+    EXPECT_EQ(all_met(result.figures), is_kept);
+    EXPECT_EQ(result.curves.at(0).y, percent);
+    std::vector<ReportedFigure> figures;
+    report(figures, kBudgetCase, result.figures);
+    return decomposition_page(figures, {{}, {kBudgetCase}, 1});
+  };
+  const std::string good = page_of({5, 4.9, 4.6, 4.6, 4.2}, true);
+  EXPECT_NE(good.find("Here more time never made a level worse."), std::string::npos) << good;
+  EXPECT_NE(good.find("| stone14 | 8 x 64           |               4 |        4.600 |"), std::string::npos) << good;
+  const std::string bad = page_of({5, 4.9, 4.6, 4.7, 4.75}, false);
+  EXPECT_NE(bad.find("Here more time made a level worse 2 times, by 0.150 %"), std::string::npos) << bad;
+}
+
+TEST(FrontCases, EveryPlotsCurvesCanBeToldApart) {
+  std::size_t caps = 0, sizes = 0;
+  for (const FrontCase& front : kFrontCases) {
+    if (front.ladders.size() > 1) caps += front.ladders.size();
+    for (const catalog::LevelKey& ladder : front.ladders) sizes += ladder.face_cap == 0;
+  }
+  // As many colours as log_plot.cpp has.
+  EXPECT_LE(caps, 7u);
+  EXPECT_LE(sizes, 7u);
+  EXPECT_LE(kFrontCases.size(), 7u) << "one curve a solid";
 }
 
 TEST(AlignedMarkdown, ColumnsAreAsWideAsTheirWidestCell) {
