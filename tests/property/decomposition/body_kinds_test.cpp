@@ -62,6 +62,21 @@ TEST(BodyKinds, NeedlesAndPlates) {
   expect_sound_level_on_any_threads(solids::scaled(rock, {50, 1, 1}), quick(2), 0.04);
 }
 
+// Stretched up to 300 : 1 along two axes, turned and moved: cuts lie at tiny angles, and no axis is one of the frame's.
+TEST(BodyKinds, TurnedRocksOfAnyStretch) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Frame frame = random_frame(random);
+    const double second = seed % 3 == 0 ? 300 : std::pow(300, random.uniform());
+    catalog::TriangleMesh rock = solids::scaled(random_bodies::random_rock(seed, 3), {300, second, 1});
+    for (catalog::Point& p : rock.vertices) p = to_point(frame(to_vec3(p)));
+    DecompositionOptions options = quick(1 + static_cast<int>(seed) % 8);
+    options.vertex_cap = 24;
+    expect_sound_level(solids::moved(rock, {10, -20, 5}), options, 0.09);
+  }
+}
+
 // The rules on edges and faces hold where the body is as thick as long; the axes of that frame are powers of two.
 TEST(BodyKinds, PartsOfNeedlesKeepToTheRulesInTheRoundFrame) {
   const catalog::TriangleMesh needle = solids::scaled(random_bodies::random_rock(7, 3), {64, 1, 1});
