@@ -60,33 +60,33 @@ std::string provenance_json(DecompositionOptions options, int parts_asked, const
          ",\"most_faces\":" + std::to_string(measured.most_faces) + "}}";
 }
 
-/// Parts that stand for nothing of the mesh are no level of detail: those of needles and plates thinner than the fit
-/// can follow.
+/// Parts that stand for nothing of the mesh are no level of detail: few parts of thin shells, say.
 void refuse_misfit(const catalog::LevelOfDetail& level) {
   constexpr double kLargestDifference = 1, kLargestVolumeError = 0.05;  // of the mesh's volume
   const bool is_volume_off =
       level.key.mode == FitMode::volume_true && std::abs(level.error.volume_error) > kLargestVolumeError;
   if (level.error.symmetric_difference < kLargestDifference && !is_volume_off) return;
-  char text[200];
+  char text[256];
   std::snprintf(
       text, sizeof text,
-      "mesh: its %d parts differ from it by %.0f %% of its volume, their volume by %.1f %%: it is too thin for "
-      "the fit; ask for another number of parts, more effort or another seed",
+      "mesh: its %d parts differ from it by %.0f %% of its volume, their volume by %.1f %%: so few parts cannot stand "
+      "for it; ask for more parts, thinner ones, more effort or another seed",
       level.key.parts_asked, 100 * level.error.symmetric_difference, 100 * level.error.volume_error);
   throw catalog::InputError(text);
 }
 
 catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, LevelSearch& search, int parts_asked,
                                   const DecompositionOptions& options) {
-  FoundLevel found = search.find(parts_asked);
+  const FoundLevel& found = search.find(parts_asked);
   if (found.parts.empty())
-    throw catalog::InputError("mesh: no convex part could be fitted to it; check that it is a solid");
+    throw catalog::InputError("mesh: no convex parts that are " + mode_name(options.mode) +
+                              " could be fitted to it; ask for more parts, or for thinner or smaller ones");
   catalog::LevelOfDetail level;
   level.key = {parts_asked, options.vertex_cap, options.face_cap, options.mode};
   catalog::VolumeMoments moments;
-  for (BuiltPart& part : found.parts) {
+  for (const BuiltPart& part : found.parts) {
     moments += catalog::volume_moments(catalog::triangulated(part.part));
-    level.parts.push_back(std::move(part.part));
+    level.parts.push_back(part.part);
   }
   level.mass_properties = catalog::mass_properties(moments);
   level.error = measure(level.parts);

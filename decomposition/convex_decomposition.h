@@ -57,18 +57,23 @@ struct LevelFigures {
 /// face narrower than 2 % of the part's size (largest distance of two vertices), but for exact pieces, for faces split
 /// along a large ledge, and where a bound (`mode`) leaves no room. No part is thinner or smaller than asked for; where
 /// that leaves no room the level has fewer parts.
-/// `enclosing`: every point of the mesh lies in a part, without tolerance. `inscribed`: no part reaches deeper into the
-/// void than 1e-5 of the diagonal.
+/// Needles and plates, more than 6 times as long as thick by their second moments, are divided and fitted in the affine
+/// frame that makes them about as long as thick (RoundFrame), as well as compact bodies are: there the rules on edges
+/// and faces hold; the figures are those of the parts as they are.
+/// `enclosing`: every point of the mesh lies in a part, without tolerance (to rounding in hulls of a drawn solid's
+/// pieces, whose cuts run along its facets). `inscribed`: no part reaches deeper into the
+/// void than 1e-5 of the diagonal. A level under a bound is never farther from the mesh than those of 1, 2, 4, ...
+/// parts below it: where more parts would be, it has fewer.
 /// A convex mesh within the caps comes back as its own hull, and a solid of few flat facets as the exact convex pieces
 /// that the search finds; pieces beside exact ones, and those of shells whose sections are no convex polygons, are
-/// fitted one by one, each to its own volume, with their cuts' ledges. The error is measured (measure_error).
-/// The mesh must be closed; it may have handles, cavities (hollows closed off from outside, which stay hollow) and
-/// several bodies (`bodies`). Surfaces that lie wholly in the rock, so that they would count it twice, are left out.
-/// Surfaces that cut one another are refused if that puts more than 0.1 % of the volume in doubt.
+/// fitted one by one, each to its own volume, with their cuts' ledges, and scaled together to the mesh's. The error is
+/// measured (measure_error). The mesh must be closed; it may have handles, cavities (hollows closed off from outside,
+/// which stay hollow) and several bodies (`bodies`). Surfaces that lie wholly in the rock, so that they would count it
+/// twice, are left out. Surfaces that cut one another are refused if that puts more than 0.1 % of the volume in doubt.
 /// Provenance: `options` holds the options, the LevelFigures and what was found in the mesh as JSON,
 /// {"options": {...}, "measured": {...}, "mesh": {...}}; the caller fills in the rest.
-/// Throws catalog::InputError for a mesh that bounds no solid, for options out of range, and where the parts miss the
-/// mesh: by all its volume, or volume-true by 5 % of it (bodies 20 times as long as thick, and thinner).
+/// Throws catalog::InputError for a mesh that bounds no solid, for options out of range, where no part keeps the bound,
+/// and where the parts miss the mesh: by all its volume, or volume-true by 5 % of it (few parts of thin shells).
 catalog::LevelOfDetail decompose(const catalog::TriangleMesh& mesh, const DecompositionOptions& options = {});
 
 /// Several levels at once, sharing one search. `options.parts` is not used. Each level is the same as decompose() would

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "catalog/mass_properties.h"
@@ -10,6 +11,7 @@
 #include "decomposition/geometry/random.h"
 #include "decomposition/quality/surface_distance.h"
 #include "decomposition/solid/ray_grid.h"
+#include "decomposition/solid/round_frame.h"
 
 namespace decomposition {
 namespace {
@@ -152,6 +154,10 @@ struct ErrorMeasurement::Reference {
   const catalog::TriangleMesh& mesh;
   QualityOptions options;
   catalog::VolumeMoments moments;
+  // Volumes are compared in the round frame, which changes no share of them: seen from most sides a needle or a plate
+  // is too narrow for the rays.
+  RoundFrame frame;
+  std::optional<catalog::TriangleMesh> round_mesh;  // where that is another
   double diagonal, convexity;
   std::vector<Vec3> surface_points;
   TriangleTree surface;
@@ -165,7 +171,10 @@ ErrorMeasurement::ErrorMeasurement(const catalog::TriangleMesh& mesh, const Qual
   TriangleSoup triangles = soup(mesh);
   Random random(sub_seed(options.seed, kMeshStream));
   std::vector<Vec3> points = spread_points(triangles, options.surface_samples, random).points;
-  reference_.reset(new Reference{mesh, options, moments, bounding_box(corners).diagonal(),
+  const RoundFrame frame(mesh);
+  std::optional<catalog::TriangleMesh> round_mesh;
+  if (!frame.is_identity()) round_mesh = frame.to_round(mesh);
+  reference_.reset(new Reference{mesh, options, moments, frame, std::move(round_mesh), bounding_box(corners).diagonal(),
                                  moments.volume / hull_volume(corners), std::move(points),
                                  TriangleTree(std::move(triangles))});
 }
@@ -173,7 +182,8 @@ ErrorMeasurement::ErrorMeasurement(const catalog::TriangleMesh& mesh, const Qual
 ErrorMeasurement::~ErrorMeasurement() = default;
 
 catalog::DecompositionError ErrorMeasurement::operator()(const std::vector<catalog::ConvexPart>& parts) const {
-  const auto& [mesh, options, mesh_moments, diagonal, convexity, mesh_points, mesh_tree] = *reference_;
+  const auto& [mesh, options, mesh_moments, frame, round_mesh, diagonal, convexity, mesh_points, mesh_tree] =
+      *reference_;
   std::vector<catalog::TriangleMesh> hulls;
   std::vector<Vec3> corners;
   catalog::VolumeMoments moments;
@@ -183,7 +193,11 @@ catalog::DecompositionError ErrorMeasurement::operator()(const std::vector<catal
     for (const catalog::Point& p : part.vertices) corners.push_back(to_vec3(p));
   }
   catalog::DecompositionError error;
-  measure_volumes(mesh, hulls, options, mesh_moments.volume, error);
+  if (round_mesh) {
+    for (catalog::TriangleMesh& hull : hulls) hull = frame.to_round(std::move(hull));
+    measure_volumes(*round_mesh, hulls, options, catalog::volume_moments(*round_mesh).volume, error);
+  } else
+    measure_volumes(mesh, hulls, options, mesh_moments.volume, error);
   error.volume_error = moments.volume / mesh_moments.volume - 1;
   const auto centre = [](const catalog::VolumeMoments& of) { return 1 / of.volume * to_vec3(of.first); };
   error.centre_error = norm(centre(moments) - centre(mesh_moments)) / diagonal;

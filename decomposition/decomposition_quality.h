@@ -20,12 +20,12 @@ struct QualityOptions {
 
 /// Measures parts against the mesh they stand for, with nothing in common with the search that found them.
 /// Volumes: rays in several random directions, jittered over the cross-section, exact along each ray; method_error is
-/// the standard error of the mean over the ray sets. Volume, centre and inertia errors are exact (signed tetrahedra; of
-/// parts that overlap the sums), the convexity error is where parts do not overlap (exact hulls).
-/// Surfaces: distances from points spread over the mesh to the outer faces, and from points of the faces that no other
-/// part covers to the mesh. Means are good to about 1 % of themselves (20,000 points each way); the largest distance is
-/// that of a sample point, so the true one may be larger by the distance between points.
-/// The mesh must be closed with outward normals.
+/// the standard error of the mean over the ray sets; needles and plates are traced in their RoundFrame. Volume, centre
+/// and inertia errors are exact (signed tetrahedra; of parts that overlap the sums), the convexity error is where parts
+/// do not overlap (exact hulls). Surfaces: distances from points spread over the mesh to the outer faces, and from
+/// points of the faces that no other part covers to the mesh. Means are good to about 1 % of themselves (20,000 points
+/// each way); the largest distance is that of a sample point, so the true one may be larger by the distance between
+/// points. The mesh must be closed with outward normals.
 class ErrorMeasurement {
  public:
   /// Keeps a reference to the mesh, and what of it is the same for all parts.

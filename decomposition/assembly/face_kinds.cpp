@@ -143,7 +143,10 @@ class FaceSplitter {
     const int added = static_cast<int>(part.vertices.size());
     const Vec3 place = at(a) + share * (at(b) - at(a));
     const double size = norm(at(b) - at(a));
-    part.vertices.push_back(to_point(nudged_inside(place, built_.cell.planes, 1e-9 * size)));
+    Vec3 middle;
+    for (const catalog::Point& p : part.vertices)
+      middle += (1.0 / static_cast<double>(part.vertices.size())) * to_vec3(p);
+    part.vertices.push_back(to_point(nudged_inside(place, built_.cell.planes, 1e-9 * size, middle)));
     for (catalog::ConvexFace& face : part.faces)
       for (std::size_t k = 0; k < face.vertices.size(); ++k)
         if (face.vertices[k] == b && face.vertices[(k + 1) % face.vertices.size()] == a) {

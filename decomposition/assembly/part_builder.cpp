@@ -147,21 +147,25 @@ int exact_side(const Plane& plane, const Vec3& p) {
   return value > 0 ? 1 : (value < 0 ? -1 : 0);
 }
 
-Vec3 nudged_inside(const Vec3& p, const std::vector<Plane>& planes, double distance) {
+Vec3 nudged_inside(const Vec3& p, const std::vector<Plane>& planes, double distance, const Vec3& inside) {
   Vec3 inward;
   std::vector<const Plane*> near;
   for (const Plane& plane : planes)
     if (plane.signed_distance(p) > -distance) near.push_back(&plane);
   // A direction that leads away from all of them: repeatedly add the normal of the plane it leaves slowest.
+  bool is_off_all = near.empty();
   for (int round = 0; round < kDirectionRounds && !near.empty(); ++round) {
     const Plane* worst = *std::min_element(near.begin(), near.end(), [&](const Plane* a, const Plane* b) {
       return -dot(a->normal, inward) < -dot(b->normal, inward);
     });
-    if (-dot(worst->normal, inward) >= 1) break;
+    is_off_all = -dot(worst->normal, inward) >= 1;
+    if (is_off_all) break;
     inward -= (1.2 + dot(worst->normal, inward)) * worst->normal;
   }
   const double unit = std::numeric_limits<double>::epsilon() *
                       std::fmax(std::fmax(std::abs(p.x), std::abs(p.y)), std::fmax(std::abs(p.z), distance));
+  // Between planes at tiny angles, of plates: towards the inside, which all of them allow.
+  if (!is_off_all) inward = normalized(inside - p);
   Vec3 moved = p;
   for (double step = unit;
        std::any_of(near.begin(), near.end(), [&](const Plane* plane) { return exact_side(*plane, moved) > 0; });
@@ -180,7 +184,9 @@ std::optional<BuiltPart> build_part(const std::vector<Vec3>& points, const Cell&
     if (is_new) placed.push_back(on_planes);
   }
   placed = without_flat_points(placed, cell.planes, size);
-  for (Vec3& p : placed) p = nudged_inside(p, cell.planes, kOnPlane * size);
+  Vec3 middle;
+  for (const Vec3& p : placed) middle += (1.0 / static_cast<double>(placed.size())) * p;
+  for (Vec3& p : placed) p = nudged_inside(p, cell.planes, kOnPlane * size, middle);
   while (placed.size() >= 4) {
     const auto hull = faceted_hull(placed, cell.planes, kCoplanar * size);
     if (!hull) return std::nullopt;

@@ -26,8 +26,8 @@ std::optional<BuiltPart> build_part_by_rules(const std::vector<Vec3>& points, co
                                              const PartRules& rules);
 
 /// Moves p by units in the last place until it lies on the inner side of every plane that it is within `distance` of,
-/// the sign of normal . p - offset taken in quadruple precision.
-Vec3 nudged_inside(const Vec3& p, const std::vector<Plane>& planes, double distance);
+/// the sign of normal . p - offset taken in quadruple precision. `inside` lies behind all planes.
+Vec3 nudged_inside(const Vec3& p, const std::vector<Plane>& planes, double distance, const Vec3& inside);
 
 /// normal . p - offset in quadruple precision: the products are exact.
 int exact_side(const Plane& plane, const Vec3& p);

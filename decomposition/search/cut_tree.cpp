@@ -23,6 +23,7 @@ constexpr int kMovesARound = 12;
 constexpr int kPolishingRounds = 4, kPolishingMoves = 6;  // of hulls, a cut
 constexpr double kPolishingReach = 0.05, kPolishingDecay = 0.6;
 constexpr double kSmallestGain = 1e-4;   // of the solid's volume: below, a cut is noise
+constexpr double kHopeless = 0.3;        // error of a piece / its volume: more, and the gain of one cut says little
 constexpr double kDistinctAngle = 0.97;  // cosine: two candidates nearer than this and ...
 constexpr double kDistinctShift = 0.05;  // ... with offsets nearer than this share of the piece's size are one
 
@@ -84,7 +85,7 @@ Piece CutTree::make_piece(Cell cell, std::uint64_t seed) const {
 }
 
 CutTree::CutTree(const Solid& solid, const SearchPlan& plan) : solid_(solid), plan_(plan) {
-  nodes_.push_back({make_piece({}, sub_seed(plan.seed, 0)), 0, -1, false, std::nullopt});
+  nodes_.push_back({make_piece({}, sub_seed(plan.seed, 0)), 0, -1, false, false, std::nullopt});
 }
 
 bool CutTree::is_allowed(const Piece& piece) const {
@@ -94,12 +95,15 @@ bool CutTree::is_allowed(const Piece& piece) const {
          (piece.is_exact || hull_thickness(hull, piece.fit.points) >= plan_.smallest_thickness);
 }
 
-std::optional<CutTree::Cut> CutTree::best_cut(const Piece& piece, std::uint64_t seed) const {
-  if (piece.is_exact || piece.error < kSmallestGain * solid_.volume()) return std::nullopt;
+std::optional<CutTree::Cut> CutTree::best_cut(const Piece& piece, std::uint64_t seed, CompareBy by) const {
+  const bool is_tight = piece.error < kSmallestGain * solid_.volume() && !(plan_.encloses && by == CompareBy::fits);
+  if (piece.is_exact || is_tight) return std::nullopt;
   Random random(seed);
   const std::vector<Vec3> points = solid_.points_inside(piece.cell.planes, kPointsAPiece, random);
-  CutTrial trial{solid_, plan_, piece.cell, points, piece.region.volume};
-  if (plan_.encloses) trial.columns = solid_.stretches_inside(piece.cell.planes, kColumnStride);
+  SearchPlan plan = plan_;
+  plan.encloses = by == CompareBy::hulls;
+  CutTrial trial{solid_, plan, piece.cell, points, piece.region.volume};
+  if (plan.encloses) trial.columns = solid_.stretches_inside(piece.cell.planes, kColumnStride);
   const auto score_all = [&](const std::vector<Plane>& planes, const TrialPlan& fit) {
     std::vector<CutScore> scores(planes.size());
     // The same seed for all: candidates are compared under common random numbers.
@@ -140,19 +144,47 @@ std::optional<CutTree::Cut> CutTree::best_cut(const Piece& piece, std::uint64_t 
   return cut;
 }
 
+/// The leaf whose cut gains most; none if no cut is worth making.
+CutTree::Node* CutTree::most_gainful_leaf() {
+  Node* chosen = nullptr;
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    Node& node = nodes_[n];
+    if (node.split >= 0) continue;
+    if (!node.was_searched) {
+      node.best = best_cut(node.piece, sub_seed(plan_.seed, 1 + n),
+                           plan_.encloses || plan_.compares_hulls ? CompareBy::hulls : CompareBy::fits);
+      node.was_searched = true;
+    }
+    if (node.best && (!chosen || node.best->gain > chosen->best->gain)) chosen = &node;
+  }
+  return chosen && chosen->best->gain >= kSmallestGain * solid_.volume() ? chosen : nullptr;
+}
+
+/// Where no cut gains, by the other measure. Of fits: the leaf that fits worst, of thin shells and the like, where
+/// nothing fits before the last cut, cut so that the halves' hulls hold least. Of hulls: the largest leaf, cut so that
+/// capped parts fit the halves best. None if all fit or cannot be cut.
+CutTree::Node* CutTree::leaf_without_gain() {
+  Node* chosen = nullptr;
+  const auto urgency = [&](const Piece& piece) { return plan_.encloses ? piece.region.volume : piece.error; };
+  for (std::size_t n = 0; n < nodes_.size(); ++n) {
+    Node& node = nodes_[n];
+    if (node.split >= 0) continue;
+    if (!plan_.encloses && node.piece.error < kHopeless * node.piece.region.volume) continue;
+    if (!node.was_searched_otherwise) {
+      node.best =
+          best_cut(node.piece, sub_seed(plan_.seed, 1 + n), plan_.encloses ? CompareBy::fits : CompareBy::hulls);
+      node.was_searched_otherwise = true;
+    }
+    if (node.best && (!chosen || urgency(node.piece) > urgency(chosen->piece))) chosen = &node;
+  }
+  return chosen;
+}
+
 void CutTree::grow(int count) {
   while (static_cast<int>(cuts_.size()) + 1 < count) {
-    Node* chosen = nullptr;
-    for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      Node& node = nodes_[n];
-      if (node.split >= 0) continue;
-      if (!node.was_searched) {
-        node.best = best_cut(node.piece, sub_seed(plan_.seed, 1 + n));
-        node.was_searched = true;
-      }
-      if (node.best && (!chosen || node.best->gain > chosen->best->gain)) chosen = &node;
-    }
-    if (!chosen || chosen->best->gain < kSmallestGain * solid_.volume()) return;
+    Node* chosen = most_gainful_leaf();
+    if (!chosen) chosen = leaf_without_gain();
+    if (!chosen) return;
     const int number = static_cast<int>(cuts_.size());
     Cut cut = std::move(*chosen->best);
     chosen->best.reset();
@@ -161,7 +193,7 @@ void CutTree::grow(int count) {
     divided_.push_back(static_cast<int>(chosen - nodes_.data()));
     for (Piece& half : cut.halves) {
       half.cell.cuts.back() = number;  // cuts may have been made since this one was found
-      nodes_.push_back({std::move(half), number + 1, -1, false, std::nullopt});
+      nodes_.push_back({std::move(half), number + 1, -1, false, false, std::nullopt});
     }
   }
 }
@@ -219,7 +251,7 @@ void CutTree::move_cuts(const std::vector<Plane>& cuts) {
     node.piece.cell = placed(node.piece.cell, cuts);
     if (node.split >= 0) continue;
     node.piece = make_piece(node.piece.cell, sub_seed(plan_.seed, 5000000 + n));
-    node.was_searched = false;
+    node.was_searched = node.was_searched_otherwise = false;
     node.best.reset();
   }
 }

@@ -23,7 +23,8 @@ struct SearchPlan {
   double smallest_thickness = 0;  // of a piece [m]
   std::uint64_t seed = 1;
   int threads = 1;
-  bool encloses = false;  // stand-ins leave nothing out: hulls instead of fits
+  bool encloses = false;        // stand-ins leave nothing out: hulls instead of fits
+  bool compares_hulls = false;  // cuts are compared by hulls even so
 };
 
 /// Intersection of half-spaces that bounds a piece: one plane per cut on the way down the tree.
@@ -80,11 +81,15 @@ class CutTree {
     Piece piece;
     int born = 0;    // number of cuts made when this piece came to be
     int split = -1;  // number of the cut that ended it, -1: still a leaf
-    bool was_searched = false;
+    bool was_searched = false, was_searched_otherwise = false;
     std::optional<Cut> best;
   };
+  /// What stands for the halves when cuts are compared.
+  enum class CompareBy { fits, hulls };
 
-  std::optional<Cut> best_cut(const Piece& piece, std::uint64_t seed) const;
+  std::optional<Cut> best_cut(const Piece& piece, std::uint64_t seed, CompareBy by) const;
+  Node* most_gainful_leaf();
+  Node* leaf_without_gain();
   bool is_allowed(const Piece& piece) const;
 
   Piece make_piece(Cell cell, std::uint64_t seed) const;

@@ -79,20 +79,40 @@ std::vector<Vec3> cell_corners_inside(const Solid& solid, const std::vector<Plan
   return corners;
 }
 
+/// Corners of the hull of the piece and of what of the surface bounds it.
+struct PieceHull {
+  std::optional<FacetedHull> hull;
+  std::vector<std::vector<Vec3>> surface;
+};
+
+/// No hull for pieces that would break the caps.
+PieceHull hull_of_piece(const Solid& solid, const std::vector<Plane>& cell, const ExactCaps& caps, double tolerance) {
+  PieceHull piece;
+  piece.surface = surface_inside(solid, cell, tolerance);
+  std::vector<Vec3> points = cell_corners_inside(solid, cell, tolerance);
+  for (const std::vector<Vec3>& polygon : piece.surface) points.insert(points.end(), polygon.begin(), polygon.end());
+  if (!cell.empty() && points.size() > 8 * kMostPoints) return piece;
+  piece.hull = faceted_hull(points, cell, tolerance);
+  if (piece.hull && (static_cast<int>(piece.hull->points.size()) > caps.vertices ||
+                     (caps.faces > 0 && static_cast<int>(piece.hull->facets.size()) > caps.faces)))
+    piece.hull.reset();
+  return piece;
+}
+
 }  // namespace
+
+std::vector<Vec3> capped_hull(const Solid& solid, const std::vector<Plane>& cell, const ExactCaps& caps) {
+  if (!solid.is_faceted()) return {};
+  const PieceHull piece = hull_of_piece(solid, cell, caps, kOnPlane * solid.diagonal());
+  return piece.hull ? piece.hull->points : std::vector<Vec3>{};
+}
 
 std::optional<ExactPiece> exact_piece(const Solid& solid, const std::vector<Plane>& cell, const ExactCaps& caps) {
   if (!solid.is_faceted()) return std::nullopt;
   const double tolerance = kOnPlane * solid.diagonal();
   if (has_reentrant_edge_inside(solid, cell, tolerance)) return std::nullopt;
-  const std::vector<std::vector<Vec3>> surface = surface_inside(solid, cell, tolerance);
-  std::vector<Vec3> points = cell_corners_inside(solid, cell, tolerance);
-  for (const std::vector<Vec3>& polygon : surface) points.insert(points.end(), polygon.begin(), polygon.end());
-  if (!cell.empty() && points.size() > 8 * kMostPoints) return std::nullopt;
-  const auto hull = faceted_hull(points, cell, tolerance);
-  if (!hull || static_cast<int>(hull->points.size()) > caps.vertices ||
-      (caps.faces > 0 && static_cast<int>(hull->facets.size()) > caps.faces))
-    return std::nullopt;
+  const auto [hull, surface] = hull_of_piece(solid, cell, caps, tolerance);
+  if (!hull) return std::nullopt;
   // The piece is its own hull if no surface runs through the hull's inside.
   for (const std::vector<Vec3>& polygon : surface)
     if (std::none_of(hull->facets.begin(), hull->facets.end(),

@@ -24,4 +24,8 @@ struct ExactCaps {
 /// exact volumes, to rounding. Only for solids with few facets (see Solid::facet_planes and Solid::is_faceted).
 std::optional<ExactPiece> exact_piece(const Solid& solid, const std::vector<Plane>& cell, const ExactCaps& caps);
 
+/// Corners of the hull of the part of the solid in `cell`, the tightest convex part that holds it; none if it breaks
+/// the caps, and none for solids with many facets.
+std::vector<Vec3> capped_hull(const Solid& solid, const std::vector<Plane>& cell, const ExactCaps& caps);
+
 }  // namespace decomposition

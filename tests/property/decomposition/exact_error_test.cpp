@@ -30,6 +30,7 @@ catalog::TriangleMesh lumpy(double k) {
 std::vector<Case> cases() {
   std::vector<Case> all{{"cross in one part", solids::flat_cross(), 1},
                         {"torus in 4 parts", solids::torus(1, 0.4, 12, 6), 4},
+                        {"lumpy needle", solids::scaled(lumpy(1.5), {30, 1, 1}), 2},
                         {"lumpy body, enclosed", lumpy(0.5), 2, FitMode::enclosing},
                         {"lumpy body, inscribed", lumpy(2.5), 2, FitMode::inscribed}};
   for (int k = 1; k <= 4; ++k) all.push_back({"lumpy body " + std::to_string(k), lumpy(k), 1 + k % 3});

@@ -20,10 +20,23 @@ TEST(PartBuilder, NudgedPointsNeverCross) {
     const double determinant = dot(planes[0].normal, bc);
     if (std::abs(determinant) < 0.05) continue;
     const Vec3 p = (1 / determinant) * (planes[0].offset * bc + planes[1].offset * ca + planes[2].offset * ab);
-    const Vec3 moved = nudged_inside(p, planes, 1e-9);
+    const Vec3 inside = p - (0.1 / determinant) * (bc + ca + ab);  // a tenth behind each
+    const Vec3 moved = nudged_inside(p, planes, 1e-9, inside);
     for (const Plane& plane : planes) EXPECT_LE(exact_side(plane, moved), 0);
     EXPECT_LT(norm(moved - p), 1e-12 * (1 + norm(p)));
   }
+}
+
+// Cuts of a plate 1000 times as wide as thick lie at angles of a thousandth, on both sides of the point.
+TEST(PartBuilder, NudgesBetweenPlanesAtTinyAngles) {
+  const Vec3 p{0, 0, 0.3}, inside{1, -1, 0.3 - 1.5e-4};
+  std::vector<Plane> planes;
+  for (const Vec3& normal : {Vec3{1e-4, 0, 1}, Vec3{-1e-4, 1e-4, -1}, Vec3{0, -1e-4, 1}})
+    planes.push_back({normalized(normal), dot(normalized(normal), p)});
+  for (const Plane& plane : planes) ASSERT_LT(plane.signed_distance(inside), 0);
+  const Vec3 moved = nudged_inside(p, planes, 1e-9, inside);
+  for (const Plane& plane : planes) EXPECT_LE(exact_side(plane, moved), 0);
+  EXPECT_LT(norm(moved - p), 1e-10);  // rounding over the angle
 }
 
 TEST(PartBuilder, PutsNearPointsOnTheCut) {
