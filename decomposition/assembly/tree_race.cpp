@@ -124,7 +124,6 @@ const CutTree& TreeRace::grown(TreeStages& stages, int count, const SearchPlan& 
     if (moves_cuts_at(next - 1) && !stages.moved.contains(next - 1)) move_cuts(stages, next - 1);
     CutTree larger = (moves_cuts_at(next - 1) ? stages.moved : stages.grown).at(next - 1);
     larger.grow(next);
-    if (next > kFirstChoice && !solid_.is_faceted()) larger.exchange_cuts();
     stages.grown.emplace(next, std::move(larger));
   }
   return stages.grown.at(count);
