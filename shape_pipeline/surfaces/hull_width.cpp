@@ -70,12 +70,19 @@ double least_width_at_faces(const catalog::TriangleMesh& hull) {
   for (const catalog::Triangle& face : hull.faces) {
     const Point normal = face_normal(hull, face);
     if (norm(normal) == 0) continue;
-    // On a convex surface climbing by neighbours ends at the farthest vertex; the last face's is near it.
+    // On a convex surface climbing by neighbours ends at the farthest vertex; the last face's is near it. Heights along
+    // the normal fall at each step, so that rounding cannot lead in a circle.
+    double height = dot(normal, hull.vertices[farthest]);
     for (bool is_climbing = true; is_climbing;) {
       is_climbing = false;
-      for (const int next : neighbours[farthest])
-        if (dot(normal, subtract(hull.vertices[next], hull.vertices[farthest])) < 0)
-          farthest = next, is_climbing = true;
+      for (const int next : neighbours[farthest]) {
+        const double lower = dot(normal, hull.vertices[next]);
+        if (lower >= height) continue;
+        height = lower;
+        farthest = next;
+        is_climbing = true;
+        break;
+      }
     }
     least = std::min(least, dot(normal, subtract(hull.vertices[face[0]], hull.vertices[farthest])));
   }
