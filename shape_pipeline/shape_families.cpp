@@ -13,6 +13,7 @@
 #include "catalog/input_error.h"
 #include "catalog/mass_properties.h"
 #include "shape_pipeline/described_shape.h"
+#include "shape_pipeline/digitization.h"
 #include "shape_pipeline/families/smoothing.h"
 #include "shape_pipeline/families/spherical_harmonics.h"
 #include "shape_pipeline/mesh_remeshing.h"
@@ -116,7 +117,8 @@ FamilyMember with_angularity(const catalog::TriangleMesh& mesh, double target, d
   FamilyMember best;
   double nearest = std::numeric_limits<double>::infinity(), low = 0, high = kSharpest, taken = 0;
   const auto consider = [&](double t) {
-    catalog::TriangleMesh candidate = blended(round, given, t);
+    // Measured in the frame in which it is stored: the points at which corners are looked at depend on it a little.
+    catalog::TriangleMesh candidate = in_principal_frame(blended(round, given, t)).mesh;
     // A surface that cuts itself is no shape: the search goes on below it.
     if (count_self_intersections(candidate) > 0) return std::numeric_limits<double>::infinity();
     const double angularity = angularity_of(candidate);
