@@ -5,7 +5,7 @@ BUILD ?= build
 JOBS ?= $(shell nproc)
 CUDA_ARCHITECTURES ?= 90
 NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
-STAGES := talus talus-digitize talus-decompose talus-catalog talus-simulate talus-post
+STAGES := talus talus-digitize talus-generate talus-family talus-decompose talus-catalog talus-simulate talus-post
 
 .PHONY: help demo test build install engine test-engines hard-cases cuda accuracy study gpu-check exact-pairs large-mesh decomposition format check-format clean
 

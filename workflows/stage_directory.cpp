@@ -22,6 +22,8 @@ bool is_built(const fs::path& executable) {
 const std::vector<Stage>& stages() {
   static const std::vector<Stage> list{
       {"digitize", "scans (clouds, meshes) to watertight meshes in a catalogue"},
+      {"generate", "built-in solids and crushed rocks into a catalogue"},
+      {"family", "stretched, rounded, sharpened, smoothed versions of a stored shape"},
       {"decompose", "meshes to convex parts at several levels of detail"},
       {"catalog", "list, show, query, sample, export shapes"},
       {"simulate", "run a scene"},

@@ -38,6 +38,20 @@ TEST(ShapeDescriptors, AreExactOnATurnedBox) {
   EXPECT_NEAR(d["equivalent_diameter_volume"], std::cbrt(6 * volume / pi), 1e-12);
   EXPECT_NEAR(d["feret_max"], std::sqrt(s * s + i * i + l * l), 1e-12);
   // The orientation tensor's eigenvalues are the areas across each axis.
+  EXPECT_NEAR(d["sphericity_sneed_folk"], std::cbrt(s * s / (l * i)), 1e-9);
+  EXPECT_NEAR(d["shape_factor_corey"], s / std::sqrt(l * i), 1e-9);
+  EXPECT_NEAR(d["flatness_potticary"], 2 * (i - s) / (s + i + l), 1e-9);
+  EXPECT_NEAR(d["elongation_potticary"], (l - i) / (s + i + l), 1e-9);
+  EXPECT_NEAR(d["flatness_angelidakis"], i * i / (s * l + i * i) - s / (s + l), 1e-9);
+  EXPECT_NEAR(d["elongation_angelidakis"], s * l / (s * l + i * i) - s / (s + l), 1e-9);
+  EXPECT_NEAR(d["feret_min"], s, 1e-12);
+  EXPECT_NEAR(d["radius_inscribed"], s / 2, 1e-9);
+  EXPECT_NEAR(d["radius_enclosing"], std::sqrt(s * s + i * i + l * l) / 2, 1e-9);
+  EXPECT_NEAR(d["sphericity_inscribed_enclosing"], s / std::sqrt(s * s + i * i + l * l), 1e-8);
+  // Of a box of side b the integral of x^2 is V b^2 / 12.
+  EXPECT_NEAR(d["axis_short_inertia"], s * std::sqrt(5.0 / 3), 1e-9);
+  EXPECT_NEAR(d["axis_intermediate_inertia"], i * std::sqrt(5.0 / 3), 1e-9);
+  EXPECT_NEAR(d["axis_long_inertia"], l * std::sqrt(5.0 / 3), 1e-9);
   const double f1 = i * l, f2 = l * s, f3 = s * i;
   EXPECT_NEAR(d["compactness_bagi_orosz"], f3 / f1, 1e-12);
   EXPECT_NEAR(d["flakiness_bagi_orosz"], (f1 - f2) / f1, 1e-12);
@@ -56,6 +70,9 @@ TEST(ShapeDescriptors, OfTheTetrahedron) {
   EXPECT_NEAR(d["sphericity_wadell"], wadell(a * a * a / (6 * std::sqrt(2.0)), std::sqrt(3.0) * a * a), 1e-12);
   EXPECT_NEAR(d["compactness_bagi_orosz"], 1, 1e-9);
   EXPECT_NEAR(d["feret_max"], a, 1e-12);
+  EXPECT_NEAR(d["feret_min"], a / std::sqrt(2.0), 1e-12);  // between opposite edges
+  EXPECT_NEAR(d["radius_inscribed"], a / (2 * std::sqrt(6.0)), 1e-9);
+  EXPECT_NEAR(d["radius_enclosing"], a * std::sqrt(6.0) / 4, 1e-9);
   // The smallest box is the cube whose face diagonals are the edges.
   for (const char* axis : {"axis_short_obb", "axis_intermediate_obb", "axis_long_obb"})
     EXPECT_NEAR(d[axis], a / std::sqrt(2.0), 1e-3 * a) << axis;
@@ -68,6 +85,9 @@ TEST(ShapeDescriptors, OfTheOctahedron) {
   EXPECT_NEAR(d["surface_area"], area, 1e-12);
   EXPECT_NEAR(d["sphericity_wadell"], wadell(volume, area), 1e-12);
   EXPECT_NEAR(d["feret_max"], a * std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(d["feret_min"], a * std::sqrt(2.0 / 3), 1e-12);  // between opposite faces
+  EXPECT_NEAR(d["radius_inscribed"], a / std::sqrt(6.0), 1e-9);
+  EXPECT_NEAR(d["sphericity_inscribed_enclosing"], 1 / std::sqrt(3.0), 1e-8);
 }
 
 TEST(ShapeDescriptors, OfFinerSpheresTendToOneWithTheSquareOfTheEdge) {
@@ -101,6 +121,8 @@ TEST(ShapeDescriptors, ConvexityOfANotchedBlock) {
   EXPECT_NEAR(d["volume"], 3, 1e-12);
   EXPECT_NEAR(d["volume_hull"], 3.5, 1e-12);
   EXPECT_NEAR(d["convexity_volume_ratio"], 3 / 3.5, 1e-12);
+  EXPECT_NEAR(d["radius_inscribed"], 0.5, 1e-9);  // the height of 1 holds it in the inner corner
+  EXPECT_NEAR(d["feret_min"], 1, 1e-12);
 }
 
 }  // namespace
