@@ -188,12 +188,16 @@ double median_of(const std::vector<double>& counts) {
 }
 
 /// Histograms of the voxels that lie, with those `reach` before and behind along each axis and all between, on the dark
-/// or on the bright side of a threshold.
+/// or on the bright side of a threshold, and of those near surfaces.
+struct PlateauCounts {
+  std::vector<double> dark, bright, near_surface;
+};
+
 template <class Value>
-std::array<std::vector<double>, 2> plateau_counts(const std::vector<Value>& values, const VoxelGrid& grid,
+PlateauCounts plateau_counts(const std::vector<Value>& values, const VoxelGrid& grid,
                                                   double threshold, int reach) {
-  std::array<std::vector<double>, 2> counts;
-  for (auto& side : counts) side.resize(std::size_t{std::numeric_limits<Value>::max()} + 1);
+  const std::vector<double> none(std::size_t{std::numeric_limits<Value>::max()} + 1);
+  PlateauCounts counts{none, none, none};
   const std::array<std::size_t, 3> stride{1, grid.index(0, 1, 0), grid.index(0, 0, 1)};
   for (int z = reach; z < grid.size[2] - reach; ++z)
     for (int y = reach; y < grid.size[1] - reach; ++y)
@@ -205,9 +209,23 @@ std::array<std::vector<double>, 2> plateau_counts(const std::vector<Value>& valu
           for (std::size_t k = 1; k <= static_cast<std::size_t>(reach) && is_deep; ++k)
             is_deep = (values[i - k * stride[axis]] >= threshold) == is_bright &&
                       (values[i + k * stride[axis]] >= threshold) == is_bright;
-        if (is_deep) ++counts[is_bright ? 1 : 0][values[i]];
+        ++(!is_deep ? counts.near_surface : is_bright ? counts.bright : counts.dark)[values[i]];
       }
   return counts;
+}
+
+/// The threshold that as many voxels near surfaces reach as their grey values add up to whole ones.
+double volume_true_threshold(const std::vector<double>& counts, double dark, double bright) {
+  double filled = 0;
+  for (std::size_t g = 0; g < counts.size(); ++g)
+    filled += counts[g] * (static_cast<double>(g) - dark) / (bright - dark);
+  double above = 0;
+  for (std::size_t g = counts.size(); g-- > 0;) {
+    if (above + counts[g] >= filled && counts[g] > 0)
+      return static_cast<double>(g) + 0.5 - std::clamp((filled - above) / counts[g], 0.0, 1.0);
+    above += counts[g];
+  }
+  return (dark + bright) / 2;
 }
 
 }  // namespace
@@ -250,11 +268,11 @@ GreyClasses plateau_classes(const GreyVolume& volume) {
   std::visit(
       [&](const auto& values) {
         for (int reach = 3; reach > 0; --reach) {
-          const auto [dark, bright] = plateau_counts(values, volume.grid, classes.threshold, reach);
-          if (total(dark) < kLeastPlateau || total(bright) < kLeastPlateau) continue;
-          classes.dark = median_of(dark);
-          classes.bright = median_of(bright);
-          classes.threshold = (classes.dark + classes.bright) / 2;
+          const PlateauCounts counts = plateau_counts(values, volume.grid, classes.threshold, reach);
+          if (total(counts.dark) < kLeastPlateau || total(counts.bright) < kLeastPlateau) continue;
+          classes.dark = median_of(counts.dark);
+          classes.bright = median_of(counts.bright);
+          classes.threshold = volume_true_threshold(counts.near_surface, classes.dark, classes.bright);
           return;
         }
       },

@@ -25,9 +25,10 @@ struct GreyClasses {
 /// the fixed point of Ridler & Calvard 1978 beside it and no whole number. Separability 0 where all voxels are equal.
 GreyClasses otsu_classes(const GreyVolume& volume);
 
-/// Otsu's classes with their levels taken where the partial volumes of surfaces do not reach: the medians of the voxels
-/// that lie three voxels deep on either side (two or one where there are hardly any), and the threshold halfway between
-/// them ("ISO 50 %"). Means of whole classes lie too near each other, which swells grains of few voxels.
+/// Otsu's classes with their levels taken where the partial volumes of surfaces do not reach, as the medians of the
+/// voxels three voxels deep on either side (two or one where there are hardly any), and the threshold at which the
+/// grains have the volume that the grey values between those levels add up to. Halfway between the levels, as usual
+/// ("ISO 50 %"), blur of standard deviation s would take 3 s^2 / R^2 of the volume of a grain of radius R.
 GreyClasses plateau_classes(const GreyVolume& volume);
 
 /// The classes of a given threshold.
