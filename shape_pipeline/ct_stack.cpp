@@ -22,8 +22,8 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr double kLeastGrain = 4;             // voxels a diameter: below, a speck of noise rather than a grain
-constexpr double kVoxelCountTolerance = 0.05; // of the volume, at 10 voxels a diameter and above
+constexpr double kLeastGrain = 4;              // voxels a diameter: below, a speck of noise rather than a grain
+constexpr double kVoxelCountTolerance = 0.05;  // of the volume, at 10 voxels a diameter and above
 
 /// Everything known of a stack when its grains are surfaced.
 struct PartedStack {
@@ -42,11 +42,13 @@ PartedStack part_stack(const std::filesystem::path& path, const StackOptions& op
   stack.volume = read_stack(path, {options.voxel_size, options.memory_limit});
   if (options.denoising == StackDenoising::median) median_filter(stack.volume);
   if (options.denoising == StackDenoising::gaussian) gaussian_filter(stack.volume, options.gaussian_sigma);
-  stack.classes =
-      options.threshold ? classes_at(stack.volume, *options.threshold - stack.volume.offset) : plateau_classes(stack.volume);
+  stack.classes = options.threshold ? classes_at(stack.volume, *options.threshold - stack.volume.offset)
+                                    : plateau_classes(stack.volume);
   if (stack.classes.separability == 0)
-    refuse_file(path, "", options.threshold ? "no grey value lies on the one side of the threshold" : "all voxels are equally grey",
-                options.threshold ? "state another --threshold, in the file's grey values" : "export the stack again");
+    refuse_file(
+        path, "",
+        options.threshold ? "no grey value lies on the one side of the threshold" : "all voxels are equally grey",
+        options.threshold ? "state another --threshold, in the file's grey values" : "export the stack again");
   stack.labels = separate_grains(stack.volume, stack.classes.threshold, {options.neck_ratio, 0.75});
   return stack;
 }
@@ -68,8 +70,7 @@ GrainSurfaces parted_surfaces(const catalog::TriangleMesh& mesh) {
                           p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
                           p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
   }
-  const std::size_t largest =
-      static_cast<std::size_t>(std::max_element(volume.begin(), volume.end()) - volume.begin());
+  const std::size_t largest = static_cast<std::size_t>(std::max_element(volume.begin(), volume.end()) - volume.begin());
   std::vector<bool> is_outer(mesh.face_count()), is_cavity(mesh.face_count());
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     is_outer[f] = of_face(f) == largest;
@@ -81,7 +82,8 @@ GrainSurfaces parted_surfaces(const catalog::TriangleMesh& mesh) {
 void append(catalog::TriangleMesh& mesh, const catalog::TriangleMesh& more) {
   const int shift = static_cast<int>(mesh.vertex_count());
   mesh.vertices.insert(mesh.vertices.end(), more.vertices.begin(), more.vertices.end());
-  for (const catalog::Triangle& face : more.faces) mesh.faces.push_back({face[0] + shift, face[1] + shift, face[2] + shift});
+  for (const catalog::Triangle& face : more.faces)
+    mesh.faces.push_back({face[0] + shift, face[1] + shift, face[2] + shift});
 }
 
 StackGrain digitized_grain(const PartedStack& stack, std::size_t grain, const StackOptions& options) {
@@ -102,7 +104,8 @@ StackGrain digitized_grain(const PartedStack& stack, std::size_t grain, const St
   expectation.second_volume_tolerance = kVoxelCountTolerance;
   std::vector<catalog::Check> checks = solid_checks(surfaces.outer, expectation);
   checks.push_back({"stack_resolution", true, result.diameter, "voxels a volume-equivalent diameter"});
-  checks.push_back({"stack_threshold", true, stack.classes.threshold + stack.volume.offset, "grey value of the surface"});
+  checks.push_back(
+      {"stack_threshold", true, stack.classes.threshold + stack.volume.offset, "grey value of the surface"});
   checks.push_back({"stack_cavities", true, cavities / outer,
                     options.keeps_cavities ? "volume of cavities, kept, over that of the outer surface"
                                            : "volume of cavities, filled, over that of the outer surface"});
@@ -128,9 +131,8 @@ std::vector<std::size_t> whole_grains(const GrainLabels& labels, StackSummary& s
     else
       grains.push_back(g);
   }
-  std::stable_sort(grains.begin(), grains.end(), [&](std::size_t a, std::size_t b) {
-    return labels.grains[a].voxels > labels.grains[b].voxels;
-  });
+  std::stable_sort(grains.begin(), grains.end(),
+                   [&](std::size_t a, std::size_t b) { return labels.grains[a].voxels > labels.grains[b].voxels; });
   return grains;
 }
 
@@ -184,9 +186,8 @@ std::vector<std::filesystem::path> stack_sources(const std::filesystem::path& pa
   for (const auto& entry : std::filesystem::directory_iterator(path))
     if (lower_ending(entry.path()) == ".tif" || lower_ending(entry.path()) == ".tiff") slices.push_back(entry.path());
   if (slices.empty()) refuse_file(path, "", "no TIFF slices in this folder", "put one TIFF a slice there");
-  std::sort(slices.begin(), slices.end(), [](const auto& a, const auto& b) {
-    return natural_order(a.filename().string(), b.filename().string());
-  });
+  std::sort(slices.begin(), slices.end(),
+            [](const auto& a, const auto& b) { return natural_order(a.filename().string(), b.filename().string()); });
   return slices;
 }
 

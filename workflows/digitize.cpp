@@ -60,8 +60,11 @@ void declare_stack_options(CLI::App& app, StackSettings& stack) {
   add_word(
       app, "--denoise", filters, [&stack, filters](std::size_t k) { stack.denoise = filters[k]; },
       "of a stack: gaussian (if not given), median or none");
-  app.add_option("--sigma", stack.sigma, "of that Gaussian [voxels]")->check(CLI::Range(0.1, 5.0))->capture_default_str();
-  app.add_option("--neck", stack.neck, "grains of a stack whose neck is wider than this share of the thinner one are one")
+  app.add_option("--sigma", stack.sigma, "of that Gaussian [voxels]")
+      ->check(CLI::Range(0.1, 5.0))
+      ->capture_default_str();
+  app.add_option("--neck", stack.neck,
+                 "grains of a stack whose neck is wider than this share of the thinner one are one")
       ->check(CLI::Range(0.1, 1.0))
       ->capture_default_str();
   app.add_option("--resolution", stack.resolution, "least voxels a diameter of a grain of a stack")

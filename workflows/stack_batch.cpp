@@ -26,14 +26,16 @@ std::array<double, 3> voxel_size(const std::string& text) {
   std::vector<double> sides;
   std::istringstream parts(text);
   for (std::string part; std::getline(parts, part, ',');) {
-    const std::optional<double> side = parse_quantity(part.substr(std::min(part.find_first_not_of(' '), part.size())),
-                                                      Dimension::length);
+    const std::optional<double> side =
+        parse_quantity(part.substr(std::min(part.find_first_not_of(' '), part.size())), Dimension::length);
     sides.push_back(side.value_or(0));
   }
   const auto is_good = [](double side) { return side > 0 && std::isfinite(side); };
   if ((sides.size() != 1 && sides.size() != 3) || !std::all_of(sides.begin(), sides.end(), is_good))
-    throw catalog::InputError("--voxel: expected a length above 0 such as '12 um', or three such as '12 um, 12 um, 20 um', "
-                              "found '" + text + "'");
+    throw catalog::InputError(
+        "--voxel: expected a length above 0 such as '12 um', or three such as '12 um, 12 um, 20 um', "
+        "found '" +
+        text + "'");
   return sides.size() == 1 ? std::array<double, 3>{sides[0], sides[0], sides[0]}
                            : std::array<double, 3>{sides[0], sides[1], sides[2]};
 }
@@ -41,7 +43,8 @@ std::array<double, 3> voxel_size(const std::string& text) {
 StackOptions stack_options(const DigitizeBatchOptions& batch, const StackSettings& settings) {
   if (!batch.settings.size.empty() || !batch.truth_path.empty() || batch.settings.genus != 0 ||
       batch.settings.method != "auto" || batch.settings.drops_nan || !batch.settings.unit.empty())
-    throw catalog::UsageError("--unit, --size, --truth, --genus, --method and --drop-nan are for scans, not for stacks");
+    throw catalog::UsageError(
+        "--unit, --size, --truth, --genus, --method and --drop-nan are for scans, not for stacks");
   StackOptions options;
   if (!settings.voxel.empty()) options.voxel_size = voxel_size(settings.voxel);
   if (!settings.threshold.empty()) {
@@ -100,8 +103,8 @@ bool is_same(const catalog::Provenance& a, const catalog::Provenance& b) {
 std::string summary_text(const std::string& name, const shape_pipeline::StackSummary& summary) {
   char text[240];
   std::snprintf(text, sizeof text,
-                "%s: %zu grains, %zu of them refused; threshold %.1f; dropped: %zu cut by the border, %zu specks", name.c_str(),
-                summary.grains, summary.refused, summary.threshold, summary.at_border, summary.specks);
+                "%s: %zu grains, %zu of them refused; threshold %.1f; dropped: %zu cut by the border, %zu specks",
+                name.c_str(), summary.grains, summary.refused, summary.threshold, summary.at_border, summary.specks);
   return text;
 }
 

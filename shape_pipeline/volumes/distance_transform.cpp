@@ -33,8 +33,8 @@ class LineTransform {
     for (int i = 0; i < count_; ++i) {
       while (at(start_, k + 1) < static_cast<float>(i)) ++k;
       const float arm = static_cast<float>(i - at(apex_, k));
-      voxels[static_cast<std::size_t>(i) * stride] = std::bit_cast<std::uint32_t>(square_ * arm * arm +
-                                                                                    at(line_, at(apex_, k)));
+      voxels[static_cast<std::size_t>(i) * stride] =
+          std::bit_cast<std::uint32_t>(square_ * arm * arm + at(line_, at(apex_, k)));
     }
   }
 

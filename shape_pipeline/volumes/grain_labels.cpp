@@ -35,8 +35,8 @@ class Basins {
   /// kept apart stay apart.
   void meet(std::uint32_t a, std::uint32_t b, std::uint32_t saddle) {
     const double lower_peak = std::min(peak_[a], peak_[b]);
-    const bool is_neck = saddle < options_.neck_ratio * lower_peak &&
-                         lower_peak - saddle > options_.least_depth * kDistanceSteps;
+    const bool is_neck =
+        saddle < options_.neck_ratio * lower_peak && lower_peak - saddle > options_.least_depth * kDistanceSteps;
     if (is_neck) return;
     if (b < a) std::swap(a, b);
     parent_[b] = a;
@@ -86,9 +86,8 @@ class Flood {
     for (std::size_t i = 0; i < words_.size(); ++i) {
       if (words_[i] == 0) continue;
       bool is_peak = true;
-      for_each_neighbour(grid_, i, [&](std::size_t j) {
-        is_peak &= j < i ? words_[j] < words_[i] : words_[j] <= words_[i];
-      });
+      for_each_neighbour(grid_, i,
+                         [&](std::size_t j) { is_peak &= j < i ? words_[j] < words_[i] : words_[j] <= words_[i]; });
       if (is_peak) peaks.push_back(static_cast<std::uint32_t>(i));
       highest = std::max(highest, words_[i]);
     }

@@ -12,8 +12,8 @@ namespace shape_pipeline {
 
 /// When two peaks of the distance to the background are one grain.
 struct SeparationOptions {
-  double neck_ratio = 0.7;   // half width of the neck between them / that of the thinner one, above which they are one
-  double least_depth = 0.75; // the neck is that much narrower [voxels], else it is the grain of the voxels [-]
+  double neck_ratio = 0.7;    // half width of the neck between them / that of the thinner one, above which they are one
+  double least_depth = 0.75;  // the neck is that much narrower [voxels], else it is the grain of the voxels [-]
 };
 
 struct LabelledGrain {

@@ -9,9 +9,9 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr double kCutSpread = 1.2;  // [voxels]: smooths the stairs of a cut, keeps a neck of a few voxels
-constexpr int kReach = 4;           // of that Gaussian [voxels]
-constexpr int kMargin = kReach + 1; // about the grain: its spread ends within the box
+constexpr double kCutSpread = 1.2;   // [voxels]: smooths the stairs of a cut, keeps a neck of a few voxels
+constexpr int kReach = 4;            // of that Gaussian [voxels]
+constexpr int kMargin = kReach + 1;  // about the grain: its spread ends within the box
 
 /// A grain's neighbourhood in the stack; what lies beyond the stack's border is background.
 struct Box {

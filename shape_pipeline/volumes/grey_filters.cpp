@@ -46,8 +46,8 @@ void exchange(Lanes<Value>& low, Lanes<Value>& high) {
   }
 }
 
-/// Median of the 27 values of each lane, left in place 13: of any 15 of them the least and the largest cannot be it, nor
-/// of the 13 others with the next one, and so on down to three.
+/// Median of the 27 values of each lane, left in place 13: of any 15 of them the least and the largest cannot be it,
+/// nor of the 13 others with the next one, and so on down to three.
 template <class Value>
 void select_median(std::array<Lanes<Value>, 27>& near) {
   constexpr std::size_t first = 12;  // the values in play stand from here to `last`, those before wait
@@ -170,8 +170,7 @@ GreyClasses parted_at(const std::vector<double>& counts, std::size_t first_brigh
   classes.bright = number[1] > 0 ? sum[1] / number[1] : 0;
   const double all = number[0] + number[1], mean = (sum[0] + sum[1]) / all, variance = squares / all - mean * mean;
   if (variance > 0 && number[0] > 0 && number[1] > 0)
-    classes.separability =
-        number[0] / all * (number[1] / all) * std::pow(classes.bright - classes.dark, 2) / variance;
+    classes.separability = number[0] / all * (number[1] / all) * std::pow(classes.bright - classes.dark, 2) / variance;
   return classes;
 }
 
@@ -194,8 +193,7 @@ struct PlateauCounts {
 };
 
 template <class Value>
-PlateauCounts plateau_counts(const std::vector<Value>& values, const VoxelGrid& grid,
-                                                  double threshold, int reach) {
+PlateauCounts plateau_counts(const std::vector<Value>& values, const VoxelGrid& grid, double threshold, int reach) {
   const std::vector<double> none(std::size_t{std::numeric_limits<Value>::max()} + 1);
   PlateauCounts counts{none, none, none};
   const std::array<std::size_t, 3> stride{1, grid.index(0, 1, 0), grid.index(0, 0, 1)};

@@ -20,10 +20,7 @@ constexpr float kLeastValue = 1e-4f;
 class Marching {
  public:
   Marching(const std::vector<float>& field, const VoxelGrid& grid)
-      : field_(field),
-        grid_(grid),
-        lower_(edges_of_layer(), -1),
-        upper_(edges_of_layer(), -1) {}
+      : field_(field), grid_(grid), lower_(edges_of_layer(), -1), upper_(edges_of_layer(), -1) {}
 
   catalog::TriangleMesh surface() {
     for (int z = 0; z + 1 < grid_.size[2]; ++z) {
@@ -41,7 +38,8 @@ class Marching {
   std::size_t edges_of_layer() const { return 7 * grid_.index(0, 0, 1); }
 
   float value(const Cell& cell, int corner) const {
-    const float found = field_[grid_.index(cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2))];
+    const float found =
+        field_[grid_.index(cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2))];
     return found >= 0 ? std::max(found, kLeastValue) : std::min(found, -kLeastValue);
   }
 

@@ -50,13 +50,14 @@ std::string field(const std::filesystem::path& path, const Fields& fields, const
 
 SampleType sample_type(const std::filesystem::path& path, const Fields& fields) {
   const std::map<std::string, SampleType> known{
-      {"uint8", {1, false}},  {"uint8_t", {1, false}},  {"uchar", {1, false}},  {"unsigned char", {1, false}},
-      {"int8", {1, true}},    {"int8_t", {1, true}},    {"signed char", {1, true}},
-      {"uint16", {2, false}}, {"uint16_t", {2, false}}, {"ushort", {2, false}}, {"unsigned short", {2, false}},
-      {"int16", {2, true}},   {"int16_t", {2, true}},   {"short", {2, true}},   {"signed short", {2, true}}};
+      {"uint8", {1, false}},    {"uint8_t", {1, false}}, {"uchar", {1, false}},          {"unsigned char", {1, false}},
+      {"int8", {1, true}},      {"int8_t", {1, true}},   {"signed char", {1, true}},     {"uint16", {2, false}},
+      {"uint16_t", {2, false}}, {"ushort", {2, false}},  {"unsigned short", {2, false}}, {"int16", {2, true}},
+      {"int16_t", {2, true}},   {"short", {2, true}},    {"signed short", {2, true}}};
   const auto found = known.find(field(path, fields, "type"));
   if (found == known.end())
-    refuse_file(path, "type", "'" + field(path, fields, "type") + "' is not read", "save whole numbers of 8 or 16 bits");
+    refuse_file(path, "type", "'" + field(path, fields, "type") + "' is not read",
+                "save whole numbers of 8 or 16 bits");
   SampleType type = found->second;
   if (type.bytes == 2) type.is_big_endian = field(path, fields, "endian") == "big";
   return type;
@@ -79,8 +80,8 @@ std::array<double, 3> spacing_of(const std::filesystem::path& path, const Fields
   std::array<double, 3> spacing{};
   if (append_numbers(text, numbers) && numbers.size() == expected)
     for (std::size_t i = 0; i < 3; ++i)
-      spacing[i] = metres * (has_directions ? std::hypot(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2])
-                                            : numbers[i]);
+      spacing[i] =
+          metres * (has_directions ? std::hypot(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]) : numbers[i]);
   for (const double side : spacing)
     if (!(side > 0) || !std::isfinite(side))
       refuse_file(path, "spacings", "expected the voxel's sides, three numbers above 0", "correct the header");

@@ -69,9 +69,9 @@ GreyVolume new_volume(const std::filesystem::path& path, const std::array<int, 3
   if (voxels > kMostVoxels)
     refuse_file(path, "", "holds " + extent + ", more than 4e9", "crop the stack or halve its resolution");
   const double needed = voxels * (type.bytes + 5);
-  const double limit =
-      memory_limit > 0 ? memory_limit
-                       : 0.9 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  const double limit = memory_limit > 0 ? memory_limit
+                                        : 0.9 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) *
+                                              static_cast<double>(sysconf(_SC_PAGESIZE));
   if (needed > limit) {
     char text[120];
     std::snprintf(text, sizeof text, ": that needs %.1f GB of memory (%d bytes a voxel), %.1f GB may be used",
@@ -98,8 +98,8 @@ void store_samples(GreyVolume& volume, std::size_t first, std::string_view bytes
   auto& large = std::get<std::vector<std::uint16_t>>(volume.values);
   const std::size_t low = type.is_big_endian ? 1 : 0;
   for (std::size_t i = 0; 2 * i + 1 < bytes.size(); ++i)
-    large[first + i] = static_cast<std::uint16_t>((byte(2 * i + low) | byte(2 * i + 1 - low) << 8) ^
-                                                  (type.is_signed ? 0x8000u : 0u));
+    large[first + i] =
+        static_cast<std::uint16_t>((byte(2 * i + low) | byte(2 * i + 1 - low) << 8) ^ (type.is_signed ? 0x8000u : 0u));
 }
 
 void read_samples(const std::filesystem::path& path, std::size_t offset, GreyVolume& volume, const SampleType& type) {
@@ -116,9 +116,9 @@ void read_samples(const std::filesystem::path& path, std::size_t offset, GreyVol
 
 double metres_of_unit(std::string_view unit) {
   constexpr std::pair<std::string_view, double> kUnits[] = {
-      {"m", 1},          {"cm", 1e-2},         {"mm", 1e-3},           {"um", 1e-6},        {"nm", 1e-9},
-      {"micron", 1e-6},  {"microns", 1e-6},    {"micrometer", 1e-6},   {"\xC2\xB5m", 1e-6}, {"\xB5m", 1e-6},
-      {"inch", 0.0254},  {"in", 0.0254},       {"millimeter", 1e-3},   {"\\u00B5m", 1e-6},  {"nanometer", 1e-9}};
+      {"m", 1},         {"cm", 1e-2},      {"mm", 1e-3},         {"um", 1e-6},        {"nm", 1e-9},
+      {"micron", 1e-6}, {"microns", 1e-6}, {"micrometer", 1e-6}, {"\xC2\xB5m", 1e-6}, {"\xB5m", 1e-6},
+      {"inch", 0.0254}, {"in", 0.0254},    {"millimeter", 1e-3}, {"\\u00B5m", 1e-6},  {"nanometer", 1e-9}};
   for (const auto& [name, metres] : kUnits)
     if (unit == name) return metres;
   return 0;

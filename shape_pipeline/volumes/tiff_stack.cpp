@@ -51,7 +51,8 @@ Page current_page(const fs::path& path, TIFF* tiff) {
     refuse_file(path, "", "counts 0 as white", "invert it, so that dense matter is bright");
   const bool is_whole = format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_INT || format == SAMPLEFORMAT_VOID;
   if ((bits != 8 && bits != 16) || !is_whole)
-    refuse_file(path, "", "has grey values of " + std::to_string(bits) + " bits" + (is_whole ? "" : ", no whole numbers"),
+    refuse_file(path, "",
+                "has grey values of " + std::to_string(bits) + " bits" + (is_whole ? "" : ", no whole numbers"),
                 "save them as whole numbers of 8 or 16 bits");
   if (TIFFIsTiled(tiff)) refuse_file(path, "", "is stored in tiles", "save it in strips (tiffcp -s)");
   // libtiff hands over samples in the order of this machine.
@@ -70,7 +71,8 @@ void require_same(const fs::path& path, const std::string& place, const Page& pa
            std::to_string(8 * p.type.bytes) + (p.type.is_signed ? " signed" : "") + " bits";
   };
   if (!is_same(page, first))
-    refuse_file(path, place, "has " + text(page) + ", the first slice " + text(first), "give slices of one size and type");
+    refuse_file(path, place, "has " + text(page) + ", the first slice " + text(first),
+                "give slices of one size and type");
 }
 
 void read_page(const fs::path& path, TIFF* tiff, int slice, GreyVolume& volume, const SampleType& type) {
@@ -106,8 +108,9 @@ std::array<double, 3> imagej_spacing(TIFF* tiff) {
   const double unit = metres_of_unit(imagej_value(text, "unit"));
   float x = 0, y = 0;
   double slice = 0;
-  if (unit == 0 || TIFFGetField(tiff, TIFFTAG_XRESOLUTION, &x) != 1 || TIFFGetField(tiff, TIFFTAG_YRESOLUTION, &y) != 1 ||
-      !(x > 0) || !(y > 0) || !parse_number(imagej_value(text, "spacing"), slice) || !(slice > 0))
+  if (unit == 0 || TIFFGetField(tiff, TIFFTAG_XRESOLUTION, &x) != 1 ||
+      TIFFGetField(tiff, TIFFTAG_YRESOLUTION, &y) != 1 || !(x > 0) || !(y > 0) ||
+      !parse_number(imagej_value(text, "spacing"), slice) || !(slice > 0))
     return {};
   return {unit / static_cast<double>(x), unit / static_cast<double>(y), unit * slice};
 }
@@ -122,7 +125,8 @@ GreyVolume read_tiff_stack(const fs::path& path, double memory_limit) {
   if (pages == 1 && parse_number(imagej_value(description(tiff.get()), "images"), images) && images > 1)
     refuse_file(path, "", "is ImageJ's form of a stack above 4 GB, which has one page", "export it as NRRD or RAW");
   if (pages == 1)
-    refuse_file(path, "", "has one page: an image, no stack", "give a multi-page TIFF, or a folder of slices with --stack");
+    refuse_file(path, "", "has one page: an image, no stack",
+                "give a multi-page TIFF, or a folder of slices with --stack");
   GreyVolume volume = new_volume(path, {static_cast<int>(first.width), static_cast<int>(first.height), pages},
                                  first.type, memory_limit);
   volume.grid.spacing = imagej_spacing(tiff.get());
@@ -146,12 +150,13 @@ GreyVolume read_slice_folder(const fs::path& path, double memory_limit) {
     const TiffFile tiff = open_tiff(slices[s]);
     const Page page = current_page(slices[s], tiff.get());
     if (!TIFFLastDirectory(tiff.get()))
-      refuse_file(slices[s], "", "has several pages in a folder of slices", "give one slice a file, or this file alone");
+      refuse_file(slices[s], "", "has several pages in a folder of slices",
+                  "give one slice a file, or this file alone");
     if (s == 0) {
       first = page;
-      volume = new_volume(path,
-                          {static_cast<int>(page.width), static_cast<int>(page.height), static_cast<int>(slices.size())},
-                          page.type, memory_limit);
+      volume = new_volume(
+          path, {static_cast<int>(page.width), static_cast<int>(page.height), static_cast<int>(slices.size())},
+          page.type, memory_limit);
     }
     require_same(slices[s], "", page, first);
     read_page(slices[s], tiff.get(), static_cast<int>(s), volume, first.type);

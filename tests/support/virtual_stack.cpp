@@ -21,8 +21,8 @@ using shape_pipeline::GreyVolume;
 using shape_pipeline::RandomStream;
 using shape_pipeline::VoxelGrid;
 
-constexpr int kRays = 4;          // along y and z in a voxel
-constexpr double kFull = 60000;   // of a whole voxel, in the 16 bits of the coverage
+constexpr int kRays = 4;            // along y and z in a voxel
+constexpr double kFull = 60000;     // of a whole voxel, in the 16 bits of the coverage
 constexpr double kTouching = 0.05;  // [voxels]: how near a grain is pushed to those before it
 
 Point cross(const Point& a, const Point& b) {
@@ -72,8 +72,7 @@ class Coverage {
     first_ = {static_cast<int>(std::floor(low[0])), static_cast<int>(std::floor(low[1]))};
     rays_ = {kRays * (static_cast<int>(std::ceil(high[0])) - first_[0] + 1),
              kRays * (static_cast<int>(std::ceil(high[1])) - first_[1] + 1)};
-    std::vector<std::vector<double>> crossings(static_cast<std::size_t>(rays_[0]) *
-                                               static_cast<std::size_t>(rays_[1]));
+    std::vector<std::vector<double>> crossings(static_cast<std::size_t>(rays_[0]) * static_cast<std::size_t>(rays_[1]));
     for (const catalog::Triangle& face : mesh.faces) cross_face(mesh, face, crossings);
     for (std::size_t r = 0; r < crossings.size(); ++r) {
       std::sort(crossings[r].begin(), crossings[r].end());
@@ -191,8 +190,7 @@ VirtualStack virtual_stack(const std::vector<TriangleMesh>& meshes, const StackR
   std::vector<std::uint8_t> grey;
   grey.reserve(covered.grid.count());
   for (const std::uint16_t share : std::get<std::vector<std::uint16_t>>(covered.values)) {
-    const double value =
-        recipe.dark + (recipe.bright - recipe.dark) * share / kFull + recipe.noise * random.normal();
+    const double value = recipe.dark + (recipe.bright - recipe.dark) * share / kFull + recipe.noise * random.normal();
     grey.push_back(static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0))));
   }
   stack.volume.values = std::move(grey);

@@ -21,8 +21,8 @@ struct StackRecipe {
 
 /// A tomogram of grains whose meshes are known.
 struct VirtualStack {
-  shape_pipeline::GreyVolume volume;            // 8 bit
-  std::vector<catalog::TriangleMesh> truths;    // in the frame of the stack [m]
+  shape_pipeline::GreyVolume volume;          // 8 bit
+  std::vector<catalog::TriangleMesh> truths;  // in the frame of the stack [m]
 };
 
 /// The meshes, each scaled to the recipe's diameter and turned at random, heaped about a centre until they touch one
@@ -30,7 +30,8 @@ struct VirtualStack {
 /// touches the border. The recipe's number of grains is drawn from the meshes in turn.
 VirtualStack virtual_stack(const std::vector<catalog::TriangleMesh>& meshes, const StackRecipe& recipe);
 
-/// Random rocks of the virtual scan, flat and long ones among them, some with a notch; a ball, a cube and an octahedron.
+/// Random rocks of the virtual scan, flat and long ones among them, some with a notch; a ball, a cube and an
+/// octahedron.
 std::vector<catalog::TriangleMesh> stack_grains(int rocks, std::uint64_t seed);
 
 }  // namespace test_support
