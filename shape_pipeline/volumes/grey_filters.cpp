@@ -212,18 +212,21 @@ PlateauCounts plateau_counts(const std::vector<Value>& values, const VoxelGrid& 
   return counts;
 }
 
-/// The threshold that as many voxels near surfaces reach as their grey values add up to whole ones.
+/// The threshold that as many voxels near surfaces reach as their grey values add up to whole ones: the middle of those
+/// for which this holds to 0.5 % of these voxels, since where edges are sharp a wide range does.
 double volume_true_threshold(const std::vector<double>& counts, double dark, double bright) {
   double filled = 0;
   for (std::size_t g = 0; g < counts.size(); ++g)
     filled += counts[g] * (static_cast<double>(g) - dark) / (bright - dark);
-  double above = 0;
-  for (std::size_t g = counts.size(); g-- > 0;) {
-    if (above + counts[g] >= filled && counts[g] > 0)
-      return static_cast<double>(g) + 0.5 - std::clamp((filled - above) / counts[g], 0.0, 1.0);
-    above += counts[g];
-  }
-  return (dark + bright) / 2;
+  const double tolerance = 0.005 * total(counts);
+  const auto threshold_of = [&](double wanted) {
+    double above = 0;
+    for (std::size_t g = counts.size(); g-- > 0; above += counts[g])
+      if (above + counts[g] >= wanted && counts[g] > 0)
+        return static_cast<double>(g) + 0.5 - std::clamp((wanted - above) / counts[g], 0.0, 1.0);
+    return dark;
+  };
+  return (threshold_of(filled - tolerance) + threshold_of(filled + tolerance)) / 2;
 }
 
 }  // namespace
