@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
+#include <exception>
 #include <limits>
 #include <utility>
 
@@ -11,10 +13,13 @@
 #include "catalog/mass_properties.h"
 #include "decomposition/assembly/level_search.h"
 #include "decomposition/decomposition_quality.h"
+#include "decomposition/geometry/random.h"
 #include "decomposition/solid/solid_surface.h"
 
 namespace decomposition {
 namespace {
+
+constexpr double kMostEffort = 100;
 
 void check_options(const DecompositionOptions& options, const std::vector<int>& part_counts) {
   const auto require = [](bool holds, const std::string& what) {
@@ -22,13 +27,13 @@ void check_options(const DecompositionOptions& options, const std::vector<int>& 
   };
   require(!part_counts.empty(), "parts: no level asked for, expected numbers such as 1,2,4,8");
   for (const int count : part_counts)
-    require(count >= 1 && count <= 256, "parts: " + std::to_string(count) + ", expected 1 to 256");
+    require(count >= 1 && count <= catalog::kMostParts, "parts: " + std::to_string(count) + ", expected 1 to 256");
   require(options.vertex_cap >= 8 && options.vertex_cap <= 64,
           "vertices: " + std::to_string(options.vertex_cap) + ", expected 8 to 64");
   require(options.face_cap == 0 || (options.face_cap >= 8 && options.face_cap <= 124),
           "faces: " + std::to_string(options.face_cap) + ", expected 8 to 124, or 0 for no cap");
   require(options.time_budget >= 0, "time_budget: expected seconds, or 0 for none");
-  require(options.effort >= 0.1 && options.effort <= 100, "effort: expected 0.1 to 100");
+  require(options.effort >= 0.1 && options.effort <= kMostEffort, "effort: expected 0.1 to 100");
   require(options.smallest_thickness >= 0 && options.smallest_thickness < 1, "smallest_thickness: expected 0 to 1");
   require(options.smallest_volume >= 0 && options.smallest_volume < 1, "smallest_volume: expected 0 to 1");
 }
@@ -97,6 +102,46 @@ catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, LevelSearch& 
   return level;
 }
 
+std::vector<catalog::LevelOfDetail> make_levels(const catalog::TriangleMesh& solid, const ErrorMeasurement& measure,
+                                                const std::vector<int>& part_counts,
+                                                const DecompositionOptions& options) {
+  LevelSearch search(solid, options);
+  std::vector<catalog::LevelOfDetail> levels;
+  for (const int count : part_counts) levels.push_back(make_level(measure, search, count, options));
+  return levels;
+}
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+/// The best levels of whole searches, each of twice the effort of the one before, as many as fit into the time. A
+/// search that finds nothing counts as long as another finds something.
+std::vector<catalog::LevelOfDetail> levels_in_time(const catalog::TriangleMesh& solid, const ErrorMeasurement& measure,
+                                                   const std::vector<int>& part_counts, DecompositionOptions options) {
+  constexpr double kFirstEffort = 0.1, kGrowth = 2;
+  const std::uint64_t seed = options.seed;
+  const double begin = cpu_seconds();
+  std::vector<catalog::LevelOfDetail> best;
+  std::exception_ptr refusal;
+  options.effort = kFirstEffort;
+  for (std::uint64_t round = 0;; ++round) {
+    const double round_begin = cpu_seconds();
+    options.seed = round == 0 ? seed : sub_seed(seed, round);
+    try {
+      std::vector<catalog::LevelOfDetail> found = make_levels(solid, measure, part_counts, options);
+      if (best.empty()) best = found;
+      for (std::size_t k = 0; k < found.size(); ++k)
+        if (found[k].error.symmetric_difference < best[k].error.symmetric_difference) best[k] = std::move(found[k]);
+    } catch (const catalog::InputError&) {
+      refusal = std::current_exception();
+    }
+    options.effort *= kGrowth;
+    const double now = cpu_seconds(), next = kGrowth * (now - round_begin);
+    if (now - begin + next > options.time_budget || options.effort > kMostEffort) break;
+  }
+  if (best.empty()) std::rethrow_exception(refusal);
+  return best;
+}
+
 /// Adds the shortest edge and the narrowest face of a part to the figures.
 void measure_slivers(const catalog::ConvexPart& part, LevelFigures& result) {
   double size = 0;
@@ -127,13 +172,13 @@ std::vector<catalog::LevelOfDetail> decompose_ladder(const catalog::TriangleMesh
   check_options(options, part_counts);
   const SolidSurface surface = solid_surface(mesh, options.bodies);
   const catalog::TriangleMesh& solid = surface.cleaned ? *surface.cleaned : mesh;
-  LevelSearch search(solid, options);
   const ErrorMeasurement measure(solid);
-  std::vector<catalog::LevelOfDetail> levels;
-  for (const int count : part_counts) {
-    levels.push_back(make_level(measure, search, count, options));
-    levels.back().provenance.options.back() = ',';
-    levels.back().provenance.options += "\"mesh\":" + surface.notes.json() + "}";
+  std::vector<catalog::LevelOfDetail> levels = options.time_budget > 0
+                                                   ? levels_in_time(solid, measure, part_counts, options)
+                                                   : make_levels(solid, measure, part_counts, options);
+  for (catalog::LevelOfDetail& level : levels) {
+    level.provenance.options.back() = ',';
+    level.provenance.options += "\"mesh\":" + surface.notes.json() + "}";
   }
   return levels;
 }

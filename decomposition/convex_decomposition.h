@@ -27,8 +27,9 @@ struct DecompositionOptions {
   SeparateBodies bodies = SeparateBodies::join;
   std::uint64_t seed = 1;  // same mesh, options and seed: same bytes, whatever `threads` is
   double effort = 1;       // scales the number of cuts and fits tried, 0.1 to 100; time grows in proportion
-  // CPU time [s] for looking for the cuts of all levels; as many searches as fit into it, at least one, instead of the
-  // number that `effort` gives. The result then depends on the machine. 0: none.
+  // CPU time [s] for all levels together: instead of one search of `effort`, whole searches of growing effort, as many
+  // as fit into it, at least one, of which each level keeps the best; so more time never gives a worse level. How many
+  // fit depends on the machine. 0: none.
   double time_budget = 0;
   double smallest_thickness = 0.1;  // of a part / thickness of the whole
   double smallest_volume = 0.01;    // of a part / volume of the whole

@@ -81,8 +81,10 @@ void declare_options(CLI::App& app, CommandLine& line) {
   add_word(
       app, "--bodies", words, [&quality, choices](std::size_t k) { quality.bodies = choices[k]; },
       "of a mesh of several bodies: join (if not given) them in one grain, keep the largest, or refuse");
-  app.add_option("--time-budget", quality.time_budget,
-                 "CPU seconds a shape for looking for cuts; the result then depends on the machine; 0: by --effort")
+  app.add_option(
+         "--time-budget", quality.time_budget,
+         "CPU seconds a shape: searches of growing effort, the best kept, so that more time is never worse; how many "
+         "depends on the machine; 0: one search of --effort")
       ->check(finite_number() & CLI::Range(0.0, 1e6));
   add_seed(app, "--seed", quality.seed, "of the random numbers; the same seed gives the same bytes");
   app.add_option("--effort", quality.effort, "more looks for better cuts, time in proportion")

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <iterator>
 #include <thread>
 #include <utility>
@@ -24,18 +23,14 @@ constexpr double kTreesOfFaceted = 2;   // the many facet planes to try make the
 constexpr double kTreesBeyondMany = 6;  // at more than kManyParts, where the choice at kFirstChoice foretells less ...
 constexpr double kTreesOfVeryMany = 3;  // ... but at more than kVeryManyParts trees are dear
 constexpr int kFirstChoice = 4, kManyParts = 8, kVeryManyParts = 16;
-constexpr double kIllFitting = 0.05;    // error of a drawn solid's pieces / its volume: worth another tree
-constexpr double kShareForTrees = 0.5;  // of a time budget
-constexpr std::size_t kMostTrees = 1000;
-constexpr double kRoomToMove = 1.3;  // on the smallest volume and thickness: the joint fits move the cuts
+constexpr double kIllFitting = 0.05;  // error of a drawn solid's pieces / its volume: worth another tree
+constexpr double kRoomToMove = 1.3;   // on the smallest volume and thickness: the joint fits move the cuts
 constexpr double kDirections = 24, kRefits = 20;
 constexpr int kMovingSteps = 150;  // of the joint fits that move a tree's cuts while it grows
 constexpr int kTrialSteps = 400;   // of the joint fits that compare trees
 constexpr double kTrialFirst = 0.02, kTrialLast = 0.001;
 constexpr double kCutRate = 0.5;
 constexpr double kBoundWeight = 4;  // of what a bound forbids against what it allows, while the bound is not kept yet
-
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// A tree's cuts are moved to suit all parts when it has this many: early, where the later cuts hang on them.
 bool moves_cuts_at(int count) { return count == 2 || count == 4 || count == 16; }
@@ -52,8 +47,7 @@ double misfit_of(const CutTree& tree, int count) {
 TreeRace::TreeRace(const catalog::TriangleMesh& mesh, const RoundFrame& frame, const DecompositionOptions& options)
     : options_(options),
       solid_(frame.is_identity() ? Solid(mesh, kFieldCells) : Solid(frame.to_round(mesh), kFieldCells)),
-      coarse_(solid_, kSearchCells),
-      started_(cpu_seconds()) {
+      coarse_(solid_, kSearchCells) {
   plan_.directions = std::max(4, static_cast<int>(std::lround(kDirections * std::fmin(1.0, options.effort))));
   plan_.refits = std::max(2, static_cast<int>(std::lround(kRefits * std::fmin(1.0, options.effort))));
   plan_.polishing_rounds = 0;  // the joint fits move the cuts
@@ -130,6 +124,7 @@ const CutTree& TreeRace::grown(TreeStages& stages, int count, const SearchPlan& 
     if (moves_cuts_at(next - 1) && !stages.moved.contains(next - 1)) move_cuts(stages, next - 1);
     CutTree larger = (moves_cuts_at(next - 1) ? stages.moved : stages.grown).at(next - 1);
     larger.grow(next);
+    if (next > kFirstChoice && !solid_.is_faceted()) larger.exchange_cuts();
     stages.grown.emplace(next, std::move(larger));
   }
   return stages.grown.at(count);
@@ -144,19 +139,9 @@ const CutTree& TreeRace::polished(std::size_t tree, int count) {
   return stages.moved.at(count);
 }
 
-/// As many trees as the effort or the time asks for, grown to `count` parts or to where the best are chosen.
+/// As many trees as the effort asks for, grown to `count` parts or to where the best are chosen.
 void TreeRace::plant_trees(int count) {
   const int grown_to = std::min(count, kFirstChoice);
-  if (options_.time_budget > 0) {
-    const double begin = cpu_seconds();
-    while (trees_.empty() || cpu_seconds() - started_ + (cpu_seconds() - begin) / static_cast<double>(trees_.size()) <
-                                 kShareForTrees * options_.time_budget) {
-      trees_.emplace_back();
-      grown(trees_.size() - 1, grown_to);
-      if (trees_.size() == kMostTrees) break;
-    }
-    return;
-  }
   const double trees =
       (solid_.is_faceted() ? kTreesOfFaceted : (plan_.encloses ? kTreesEnclosing : kTrees)) * options_.effort;
   trees_.resize(static_cast<std::size_t>(std::max(1.0, std::round(trees))));

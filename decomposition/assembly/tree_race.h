@@ -66,7 +66,6 @@ class TreeRace {
   DecompositionOptions options_;
   Solid solid_, coarse_;
   SearchPlan plan_;
-  double started_ = 0;  // CPU time [s]
   std::vector<TreeStages> trees_;
   TreeStages tree_of_hulls_;
   std::map<int, std::vector<Start>> starts_;

@@ -45,7 +45,8 @@ SideScore score_side(const CutTrial& trial, const Plane& plane, const TrialPlan&
   std::vector<Vec3> side;
   for (const Vec3& p : trial.points)
     if (plane.signed_distance(p) < 0) side.push_back(p);
-  const double volume = trial.volume * static_cast<double>(side.size()) / static_cast<double>(trial.points.size());
+  const double volume =
+      trial.region.volume * static_cast<double>(side.size()) / static_cast<double>(trial.points.size());
   if (side.size() < 20 || volume < trial.plan.smallest_volume) return {};
   std::vector<Plane> cell = trial.cell.planes;
   cell.push_back(plane);
@@ -64,15 +65,21 @@ SideScore score_side(const CutTrial& trial, const Plane& plane, const TrialPlan&
 
 std::vector<Plane> candidate_planes(const CutTrial& trial, Random& random) {
   std::vector<Plane> planes;
-  const Frame frame = random_frame(random);
   std::vector<double> heights(trial.points.size());
-  for (int d = 0; d < trial.plan.directions; ++d) {
-    // Half a sphere of directions: the other half gives the same planes.
-    const Vec3 normal = frame(spread_direction(d, 2 * trial.plan.directions));
+  const auto add_quantiles = [&](const Vec3& normal) {
     for (std::size_t p = 0; p < heights.size(); ++p) heights[p] = dot(normal, trial.points[p]);
     std::sort(heights.begin(), heights.end());
     for (const double quantile : kQuantiles)
       planes.push_back({normal, heights[static_cast<std::size_t>(quantile * static_cast<double>(heights.size()))]});
+  };
+  const Frame frame = random_frame(random);
+  // Half a sphere of directions: the other half gives the same planes.
+  for (int d = 0; d < trial.plan.directions; ++d) add_quantiles(frame(spread_direction(d, 2 * trial.plan.directions)));
+  for (const Vec3& axis : trial.region.semi_axes) {
+    if (!(norm(axis) > 0)) continue;
+    const Vec3 normal = normalized(axis);
+    add_quantiles(normal);
+    planes.push_back({normal, dot(normal, trial.region.centroid)});
   }
   const std::size_t random_planes = planes.size();
   for (const Plane& facet : trial.solid.facet_planes()) {

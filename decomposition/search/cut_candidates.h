@@ -14,7 +14,7 @@ struct CutTrial {
   const SearchPlan& plan;
   const Cell& cell;
   const std::vector<Vec3>& points;  // spread over the piece
-  double volume;                    // of the piece [m3]
+  const RegionMoments& region;      // of the piece
   std::vector<Stretch> columns{};   // of the piece, where stand-ins are to enclose it
 };
 
@@ -32,7 +32,9 @@ struct CutScore {
   bool is_exact = false;  // both sides are convex as they stand: no better cut exists
 };
 
-/// Random directions times quantiles of the points along them, then the solid's own facet planes at re-entrant edges.
+/// The piece's principal directions and random ones times quantiles of the points along them; the planes through its
+/// centroid across the principal directions, among which are its planes of symmetry, if it has any; then the solid's
+/// own facet planes at re-entrant edges.
 std::vector<Plane> candidate_planes(const CutTrial& trial, Random& random);
 
 /// The cut moved and turned a little: `reach` is the largest move / size of the piece, which has that middle.

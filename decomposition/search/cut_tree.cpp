@@ -85,7 +85,8 @@ Piece CutTree::make_piece(Cell cell, std::uint64_t seed) const {
 }
 
 CutTree::CutTree(const Solid& solid, const SearchPlan& plan) : solid_(solid), plan_(plan) {
-  nodes_.push_back({make_piece({}, sub_seed(plan.seed, 0)), 0, -1, false, false, std::nullopt});
+  nodes_.emplace_back();
+  nodes_.back().piece = make_piece({}, sub_seed(plan.seed, 0));
 }
 
 bool CutTree::is_allowed(const Piece& piece) const {
@@ -102,7 +103,7 @@ std::optional<CutTree::Cut> CutTree::best_cut(const Piece& piece, std::uint64_t 
   const std::vector<Vec3> points = solid_.points_inside(piece.cell.planes, kPointsAPiece, random);
   SearchPlan plan = plan_;
   plan.encloses = by == CompareBy::hulls;
-  CutTrial trial{solid_, plan, piece.cell, points, piece.region.volume};
+  CutTrial trial{solid_, plan, piece.cell, points, piece.region};
   if (plan.encloses) trial.columns = solid_.stretches_inside(piece.cell.planes, kColumnStride);
   const auto score_all = [&](const std::vector<Plane>& planes, const TrialPlan& fit) {
     std::vector<CutScore> scores(planes.size());
@@ -122,7 +123,8 @@ std::optional<CutTree::Cut> CutTree::best_cut(const Piece& piece, std::uint64_t 
   };
   const auto refits = static_cast<std::size_t>(plan_.refits);
   std::vector<CutScore> best = score_all(
-      planes_of(distinct(score_all(candidate_planes(trial, random), kCoarse), refits, std::cbrt(trial.volume))), kFine);
+      planes_of(distinct(score_all(candidate_planes(trial, random), kCoarse), refits, std::cbrt(piece.region.volume))),
+      kFine);
   if (best.empty() || !std::isfinite(best.front().misfit)) return std::nullopt;
   double reach = kFirstReach;
   for (int round = 0; round < plan_.polishing_rounds && !best.front().is_exact; ++round, reach /= 2) {
@@ -180,21 +182,90 @@ CutTree::Node* CutTree::leaf_without_gain() {
   return chosen;
 }
 
+void CutTree::make_cut(Node& leaf) {
+  const int number = static_cast<int>(cuts_.size());
+  Cut cut = std::move(*leaf.best);
+  leaf.best.reset();
+  leaf.split = number;
+  leaf.halves = static_cast<int>(nodes_.size());
+  cuts_.push_back(cut.plane);
+  divided_.push_back(static_cast<int>(&leaf - nodes_.data()));
+  for (Piece& half : cut.halves) {
+    half.cell.cuts.back() = number;  // cuts may have been made since this one was found
+    Node node;
+    node.piece = std::move(half);
+    node.born = number + 1;
+    nodes_.push_back(std::move(node));
+  }
+}
+
 void CutTree::grow(int count) {
   while (static_cast<int>(cuts_.size()) + 1 < count) {
     Node* chosen = most_gainful_leaf();
     if (!chosen) chosen = leaf_without_gain();
     if (!chosen) return;
-    const int number = static_cast<int>(cuts_.size());
-    Cut cut = std::move(*chosen->best);
-    chosen->best.reset();
-    chosen->split = number;
-    cuts_.push_back(cut.plane);
-    divided_.push_back(static_cast<int>(chosen - nodes_.data()));
-    for (Piece& half : cut.halves) {
-      half.cell.cuts.back() = number;  // cuts may have been made since this one was found
-      nodes_.push_back({std::move(half), number + 1, -1, false, false, std::nullopt});
-    }
+    make_cut(*chosen);
+  }
+}
+
+/// What the error grows by if the halves become one again; infinite if they are cut themselves.
+double CutTree::loss_of_merging(const Node& node) const {
+  if (node.split < 0) return std::numeric_limits<double>::infinity();
+  const Node *first = &nodes_[static_cast<std::size_t>(node.halves)], *second = first + 1;
+  if (first->split >= 0 || second->split >= 0) return std::numeric_limits<double>::infinity();
+  return node.piece.error - first->piece.error - second->piece.error;
+}
+
+/// The divided piece whose halves are best merged, not one of them being `kept`; null if there is none.
+CutTree::Node* CutTree::least_useful_cut(const Node& kept) {
+  Node* chosen = nullptr;
+  for (Node& node : nodes_) {
+    if (!std::isfinite(loss_of_merging(node))) continue;
+    const Node* first = &nodes_[static_cast<std::size_t>(node.halves)];
+    if (&kept == first || &kept == first + 1) continue;
+    if (!chosen || loss_of_merging(node) < loss_of_merging(*chosen)) chosen = &node;
+  }
+  return chosen;
+}
+
+/// Takes a cut away whose halves are leaves. It stays known as the best of its piece.
+void CutTree::merge(Node& divided) {
+  const int cut = divided.split, first = divided.halves;
+  Cut best;
+  best.gain = loss_of_merging(divided);
+  best.plane = cuts_[static_cast<std::size_t>(cut)];
+  for (int side = 0; side < 2; ++side)
+    best.halves[static_cast<std::size_t>(side)] = std::move(nodes_[static_cast<std::size_t>(first + side)].piece);
+  divided.best = std::move(best);
+  divided.split = -1;
+  nodes_.erase(nodes_.begin() + first, nodes_.begin() + first + 2);
+  cuts_.erase(cuts_.begin() + cut);
+  divided_.erase(divided_.begin() + cut);
+  for (int& node : divided_)
+    if (node > first) node -= 2;
+  for (Node& node : nodes_) {
+    if (node.halves > first) node.halves -= 2;
+    if (node.split > cut) --node.split;
+    if (node.born > cut + 1) --node.born;
+    for (int& number : node.piece.cell.cuts)
+      if (number > cut) --number;
+    if (!node.best) continue;
+    for (Piece& half : node.best->halves)
+      for (int& number : half.cell.cuts)
+        if (number > cut) --number;
+  }
+}
+
+void CutTree::exchange_cuts() {
+  constexpr double kWorthwhile = 1.05;  // gain over loss
+  constexpr int kMost = 8;
+  for (int exchange = 0; exchange < kMost; ++exchange) {
+    Node* gainful = most_gainful_leaf();
+    Node* useless = gainful ? least_useful_cut(*gainful) : nullptr;
+    if (!useless || gainful->best->gain < kWorthwhile * loss_of_merging(*useless)) return;
+    const std::ptrdiff_t merged = useless - nodes_.data();
+    make_cut(*gainful);  // moves the nodes
+    merge(nodes_[static_cast<std::size_t>(merged)]);
   }
 }
 

@@ -57,6 +57,9 @@ class CutTree {
 
   /// Cuts until there are `count` pieces or no cut helps.
   void grow(int count);
+  /// Merges two halves and cuts another piece instead, as long as that lowers the error: cuts are chosen by what they
+  /// gain at once, and what a later one gains shows only when those before it are made. Ends the nesting of the levels.
+  void exchange_cuts();
   /// Moves the cuts a little, one at a time, as long as that takes volume off the hulls of the pieces.
   void polish_hulls();
   /// Puts the cuts in these places; pieces that are not cut yet are fitted again.
@@ -81,6 +84,7 @@ class CutTree {
     Piece piece;
     int born = 0;    // number of cuts made when this piece came to be
     int split = -1;  // number of the cut that ended it, -1: still a leaf
+    int halves = 0;  // number of the first of its two halves, which stand together
     bool was_searched = false, was_searched_otherwise = false;
     std::optional<Cut> best;
   };
@@ -90,6 +94,10 @@ class CutTree {
   std::optional<Cut> best_cut(const Piece& piece, std::uint64_t seed, CompareBy by) const;
   Node* most_gainful_leaf();
   Node* leaf_without_gain();
+  void make_cut(Node& leaf);
+  double loss_of_merging(const Node& node) const;
+  Node* least_useful_cut(const Node& kept);
+  void merge(Node& divided);
   bool is_allowed(const Piece& piece) const;
 
   Piece make_piece(Cell cell, std::uint64_t seed) const;
