@@ -61,7 +61,8 @@ std::vector<std::filesystem::path> scan_files(const std::vector<std::filesystem:
       if (!leads_to_folder(entry) && has_scan_ending(entry.path()) && ending_of(entry.path()) != ".txt")
         found.push_back(entry.path());
     if (found.empty())
-      refuse_file(input, "", "no scan files in this folder", "put PLY, PCD, XYZ, STL, OBJ or OFF files there");
+      refuse_file(input, "", "no scan files in this folder",
+                  "put PLY, PCD, XYZ, STL, OBJ or OFF files there, or say --stack if it holds the slices of one");
     std::sort(found.begin(), found.end());
     files.insert(files.end(), found.begin(), found.end());
   }

@@ -14,6 +14,7 @@
 #include "shape_pipeline/virtual_scan.h"
 #include "workflows/command_options.h"
 #include "workflows/digitize_batch.h"
+#include "workflows/stack_batch.h"
 #include "workflows/stage_tool.h"
 #include "workflows/units.h"
 
@@ -25,6 +26,7 @@ namespace fs = std::filesystem;
 /// The command line as typed.
 struct CommandLine {
   DigitizeBatchOptions batch;
+  StackSettings stack;
   fs::path virtual_scan_folder;
   int count = 4, points = 6000;
   std::uint64_t seed = 1;
@@ -42,8 +44,34 @@ constexpr char kDescription[] =
     "reason, and the batch goes on; the exit status is then 3. It is 4 if all scans could be used, but a shape has a "
     "check that did\n"
     "not pass: such shapes are stored, and named.\n\n"
+    "  talus digitize stack.tif --into ore.talus --voxel '12 um'\n\n"
+    "parts a CT stack (multi-page TIFF, NRRD, RAW with a JSON sidecar, or with --stack a folder of TIFF slices) into "
+    "its\n"
+    "grains, named stack_0001, ... from the largest down.\n\n"
     "  talus digitize --make-virtual-scans scans/ --count 4 --seed 1\n\n"
     "writes scans of generated rocks with noise and gaps, and their truth (use --unit m --truth scans/truth.json).";
+
+void declare_stack_options(CLI::App& app, StackSettings& stack) {
+  app.add_flag("--stack", stack.is_asked_for, "each folder is one CT stack, a TIFF a slice");
+  app.add_option("--voxel", stack.voxel, "side of a voxel of a stack, such as '12 um'; three for x, y, z with commas");
+  app.add_option("--threshold", stack.threshold,
+                 "grey value of a stack from which on a voxel is grain; else the one at which volumes are true");
+  const std::vector<std::string> filters{"gaussian", "median", "none"};
+  add_word(
+      app, "--denoise", filters, [&stack, filters](std::size_t k) { stack.denoise = filters[k]; },
+      "of a stack: gaussian (if not given), median or none");
+  app.add_option("--sigma", stack.sigma, "of that Gaussian [voxels]")
+      ->check(CLI::Range(0.1, 5.0))
+      ->capture_default_str();
+  app.add_option("--neck", stack.neck,
+                 "grains of a stack whose neck is wider than this share of the thinner one are one")
+      ->check(CLI::Range(0.1, 1.0))
+      ->capture_default_str();
+  app.add_option("--resolution", stack.resolution, "least voxels a diameter of a grain of a stack")
+      ->check(CLI::Range(4.0, 10000.0))
+      ->capture_default_str();
+  app.add_flag("--keep-cavities", stack.keeps_cavities, "of a stack's grains, as inner surfaces; else they are filled");
+}
 
 void declare_options(CLI::App& app, CommandLine& line) {
   app.add_option("INPUT", line.batch.inputs, "scan files, or folders of them");
@@ -67,6 +95,7 @@ void declare_options(CLI::App& app, CommandLine& line) {
                "drop points that are no numbers instead of refusing the cloud");
   app.add_option("--truth", line.batch.truth_path,
                  "JSON of known volumes and areas: checks the error of each scan named in it");
+  declare_stack_options(app, line.stack);
   app.add_flag("--json", line.is_json, "one JSON object a scan on stdout");
   app.add_option("--make-virtual-scans", line.virtual_scan_folder, "write virtual scans into this folder and stop");
   app.add_option("--count", line.count, "virtual scans")->check(CLI::Range(1, 10000))->capture_default_str();
@@ -130,11 +159,8 @@ int make_virtual_scans(const CommandLine& line) {
   return kDone;
 }
 
-int digitize_batch(const CommandLine& line) {
-  if (line.batch.inputs.empty())
-    throw catalog::UsageError("no scan named; give files or folders, or --make-virtual-scans DIR");
-  if (line.batch.catalog_path.empty()) throw catalog::UsageError("no catalogue named; add --into ore.talus");
-  DigitizeBatch batch(line.batch);
+template <class Batch>
+int run_batch(const CommandLine& line, Batch batch) {
   const std::vector<DigitizedScan>& outcomes = batch.outcomes();
   const auto print = [&] { line.is_json ? print_json(outcomes) : print_table(outcomes); };
   try {
@@ -150,6 +176,14 @@ int digitize_batch(const CommandLine& line) {
     if (!text.empty()) std::fprintf(stderr, "digitize: %s", text.c_str());
   if (!bad.empty()) return kBadInput;
   return failed.empty() ? kDone : kCheckNotPassed;
+}
+
+int digitize_batch(const CommandLine& line) {
+  if (line.batch.inputs.empty())
+    throw catalog::UsageError("no scan named; give files or folders, or --make-virtual-scans DIR");
+  if (line.batch.catalog_path.empty()) throw catalog::UsageError("no catalogue named; add --into ore.talus");
+  if (are_stacks(line.batch, line.stack)) return run_batch(line, StackBatch(line.batch, line.stack));
+  return run_batch(line, DigitizeBatch(line.batch));
 }
 
 }  // namespace

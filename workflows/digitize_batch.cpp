@@ -84,14 +84,6 @@ std::vector<std::string> shape_names(const std::vector<fs::path>& scans, const s
   return names;
 }
 
-/// The catalogue to fill; SQLite takes an empty file for a new database, but it may be anything of the user's.
-catalog::ShapeCatalog open_catalog(const fs::path& path) {
-  if (fs::is_regular_file(path) && fs::file_size(path) == 0)
-    throw catalog::InputError(
-        path.string() + ": is an empty file, expected a catalogue or a new name; delete the file or name another");
-  return {path, catalog::ShapeCatalog::Access::read_write};
-}
-
 /// A file that is there but may not be looked at is not missing.
 bool is_missing(const fs::path& scan) {
   std::error_code error;
@@ -128,6 +120,14 @@ bool is_same(const catalog::Provenance& a, const catalog::Provenance& b) {
 }
 
 }  // namespace
+
+// SQLite takes an empty file for a new database, but it may be anything of the user's.
+catalog::ShapeCatalog open_catalog(const fs::path& path) {
+  if (fs::is_regular_file(path) && fs::file_size(path) == 0)
+    throw catalog::InputError(
+        path.string() + ": is an empty file, expected a catalogue or a new name; delete the file or name another");
+  return {path, catalog::ShapeCatalog::Access::read_write};
+}
 
 DigitizeBatch::DigitizeBatch(const DigitizeBatchOptions& options)
     : options_(options),

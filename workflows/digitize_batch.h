@@ -36,6 +36,9 @@ struct DigitizedScan {
   bool is_bad() const { return status == "rejected" || status == "missing"; }
 };
 
+/// The catalogue to fill, made where it is missing. Throws InputError for an empty file of that name.
+catalog::ShapeCatalog open_catalog(const std::filesystem::path& path);
+
 /// Scans into a catalogue, one after the other. A scan that is there from the same bytes with the same options is
 /// skipped; a bad one is kept as rejected with its reason, and the batch goes on. The constructor throws
 /// catalog::InputError or UsageError for options that fit no batch, and for a catalogue that cannot be opened; run()

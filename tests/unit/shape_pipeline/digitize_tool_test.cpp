@@ -5,6 +5,8 @@
 #include <sys/stat.h>
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -197,6 +199,44 @@ TEST(DigitizeTool, VirtualScansToTheSameCatalogueTwice) {
   const catalog::ShapeRecord rock = catalog.shape(*catalog.find("rock_02"));
   EXPECT_NEAR(rock.descriptors.at("sieve_size_second_axis"), 0.03, 1e-9);
   EXPECT_LT(std::abs(rock.descriptors.at("volume_error_truth")), 0.02);
+}
+
+TEST(DigitizeTool, AStackBecomesNamedGrainsOnce) {
+  const TemporaryFolder folder;
+  std::string bytes;  // a cube of 16 voxels and one of 8
+  for (int z = 0; z < 30; ++z)
+    for (int y = 0; y < 30; ++y)
+      for (int x = 0; x < 50; ++x) {
+        const bool is_large = std::min({x, y, z}) >= 6 && std::max({x, y, z}) < 22;
+        const bool is_small = std::min({x - 26, y, z}) >= 10 && std::max({x - 26, y, z}) < 18;
+        bytes += is_large || is_small ? '\xC8' : '\x28';
+      }
+  write_bytes(folder / "ct.raw", bytes);
+  write_text(folder / "ct.json", R"({"size": [50, 30, 30], "type": "uint8"})");
+  EXPECT_EQ(digitize(folder, "ct.raw ct.raw box.stl --into ore.talus --voxel '12 um'").status, 2);
+  EXPECT_EQ(digitize(folder, "ct.raw --into ore.talus --voxel nan").status, 3);
+  EXPECT_EQ(digitize(folder, "ct.raw --into ore.talus --voxel 12um --unit mm").status, 2);
+  const ToolRun no_voxel = digitize(folder, "ct.raw --into ore.talus");
+  EXPECT_EQ(no_voxel.status, 3);
+  EXPECT_NE(no_voxel.errors.find("state it, such as --voxel '12 um'"), std::string::npos) << no_voxel.errors;
+
+  const ToolRun first = digitize(folder, "ct.raw --into ore.talus --voxel '12 um'");
+  EXPECT_EQ(first.status, 3) << first.errors;  // the small cube is refused by name
+  EXPECT_NE(first.errors.find("ct_0002: grain ct_0002: 9.9 voxels a diameter"), std::string::npos) << first.errors;
+  EXPECT_NE(first.errors.find("ct: 2 grains, 1 of them refused"), std::string::npos) << first.errors;
+  catalog::ShapeCatalog catalog(folder / "ore.talus", catalog::ShapeCatalog::Access::read_only);
+  const catalog::ShapeRecord grain = catalog.shape(*catalog.find("ct_0001"));
+  // The cube's edges and corners are rounded by the filter and the surface between voxels: 12 edges by 0.1 voxel2.
+  EXPECT_NEAR(grain.mass_properties.volume / std::pow(16 * 12e-6, 3), 1, 0.02);
+  EXPECT_NE(grain.provenance.options.find("\"voxel\":\"12 um\""), std::string::npos) << grain.provenance.options;
+  ASSERT_EQ(catalog.rejected().size(), 1u);
+  EXPECT_EQ(catalog.rejected()[0].name, "ct_0002");
+
+  const ToolRun again = digitize(folder, "ct.raw --into ore.talus --voxel '12 um' --json");
+  EXPECT_EQ(again.status, 0) << again.errors;
+  EXPECT_NE(again.output.find("\"status\":\"skipped\""), std::string::npos) << again.output;
+  EXPECT_EQ(digitize(folder, "ct.raw --into ore.talus --voxel '12 um' --resolution 8").status, 0);
+  EXPECT_TRUE(catalog.find("ct_0002").has_value());
 }
 
 }  // namespace

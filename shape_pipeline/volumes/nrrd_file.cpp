@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// NRRD (Kindlmann 2002, teem.sourceforge.net/nrrd/format.html): a text header, a blank line, the values.
+#include <zlib.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "shape_pipeline/reading/scan_bytes.h"
+#include "shape_pipeline/volumes/stack_file.h"
+
+namespace shape_pipeline {
+namespace {
+
+using Fields = std::map<std::string, std::string>;
+constexpr char kRemedy[] = "export it as an attached NRRD of whole numbers, raw or gzip";
+
+struct Header {
+  Fields fields;
+  std::size_t bytes = 0;  // up to the values
+};
+
+Header read_header(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) refuse_file(path, "", "there is no such file", "check the path of the stack");
+  std::ifstream stream(path, std::ios::binary);
+  std::string line;
+  if (!std::getline(stream, line)) refuse_file(path, "", "the file is empty", "export the stack again");
+  if (!line.starts_with("NRRD000")) refuse_file(path, "line 1", "is no NRRD", kRemedy);
+  Header header;
+  while (std::getline(stream, line)) {
+    if (line.ends_with('\r')) line.pop_back();
+    if (line.empty()) {
+      header.bytes = static_cast<std::size_t>(stream.tellg());
+      return header;
+    }
+    const std::size_t colon = line.find(": ");
+    if (line[0] != '#' && colon != std::string::npos) header.fields[line.substr(0, colon)] = line.substr(colon + 2);
+  }
+  refuse_file(path, "", "the header does not end: the file is cut off", "export the stack again");
+}
+
+std::string field(const std::filesystem::path& path, const Fields& fields, const std::string& name) {
+  const auto found = fields.find(name);
+  if (found == fields.end()) refuse_file(path, name, "is missing from the header", kRemedy);
+  return found->second;
+}
+
+SampleType sample_type(const std::filesystem::path& path, const Fields& fields) {
+  const std::map<std::string, SampleType> known{
+      {"uint8", {1, false}},    {"uint8_t", {1, false}}, {"uchar", {1, false}},          {"unsigned char", {1, false}},
+      {"int8", {1, true}},      {"int8_t", {1, true}},   {"signed char", {1, true}},     {"uint16", {2, false}},
+      {"uint16_t", {2, false}}, {"ushort", {2, false}},  {"unsigned short", {2, false}}, {"int16", {2, true}},
+      {"int16_t", {2, true}},   {"short", {2, true}},    {"signed short", {2, true}}};
+  const auto found = known.find(field(path, fields, "type"));
+  if (found == known.end())
+    refuse_file(path, "type", "'" + field(path, fields, "type") + "' is not read",
+                "save whole numbers of 8 or 16 bits");
+  SampleType type = found->second;
+  if (type.bytes == 2) type.is_big_endian = field(path, fields, "endian") == "big";
+  return type;
+}
+
+/// Lengths of the axes' steps; zeros where the header states none, or no unit for them.
+std::array<double, 3> spacing_of(const std::filesystem::path& path, const Fields& fields) {
+  const bool has_directions = fields.contains("space directions");
+  const std::string unit_key = has_directions ? "space units" : "units";
+  if ((!has_directions && !fields.contains("spacings")) || !fields.contains(unit_key)) return {};
+  std::string unit = fields.at(unit_key), text = fields.at(has_directions ? "space directions" : "spacings");
+  std::replace(unit.begin(), unit.end(), '"', ' ');
+  const auto units = words_of(unit);
+  const double metres = units.empty() ? 0 : metres_of_unit(units[0]);
+  if (metres == 0 || std::any_of(units.begin(), units.end(), [&](auto other) { return other != units[0]; }))
+    refuse_file(path, unit_key, "expected one unit of length for the three axes", "correct the header");
+  for (const char bracket : {'(', ')'}) std::replace(text.begin(), text.end(), bracket, ' ');
+  std::vector<double> numbers;
+  const std::size_t expected = has_directions ? 9 : 3;
+  std::array<double, 3> spacing{};
+  if (append_numbers(text, numbers) && numbers.size() == expected)
+    for (std::size_t i = 0; i < 3; ++i)
+      spacing[i] =
+          metres * (has_directions ? std::hypot(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]) : numbers[i]);
+  for (const double side : spacing)
+    if (!(side > 0) || !std::isfinite(side))
+      refuse_file(path, "spacings", "expected the voxel's sides, three numbers above 0", "correct the header");
+  return spacing;
+}
+
+void read_gzip(const std::filesystem::path& path, std::size_t offset, GreyVolume& volume, const SampleType& type) {
+  std::FILE* const file = std::fopen(path.c_str(), "rb");
+  if (!file) refuse_file(path, "", "cannot be opened for reading", "check its permissions");
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> closing(file, std::fclose);
+  z_stream stream{};
+  if (std::fseek(file, static_cast<long>(offset), SEEK_SET) != 0 || inflateInit2(&stream, 15 + 32) != Z_OK)
+    refuse_file(path, "", "cannot be decompressed", kRemedy);
+  std::unique_ptr<z_stream, int (*)(z_stream*)> ending(&stream, inflateEnd);
+  std::string packed(1 << 16, '\0'), slice(volume.grid.index(0, 0, 1) * static_cast<std::size_t>(type.bytes), '\0');
+  for (int z = 0; z < volume.grid.size[2]; ++z) {
+    stream.next_out = reinterpret_cast<Bytef*>(slice.data());
+    stream.avail_out = static_cast<uInt>(slice.size());
+    while (stream.avail_out > 0) {
+      if (stream.avail_in == 0) {
+        stream.next_in = reinterpret_cast<Bytef*>(packed.data());
+        stream.avail_in = static_cast<uInt>(std::fread(packed.data(), 1, packed.size(), file));
+      }
+      const int state = inflate(&stream, Z_NO_FLUSH);
+      if (state != Z_OK && !(state == Z_STREAM_END && stream.avail_out == 0))
+        refuse_file(path, "slice " + std::to_string(z + 1), "the file is cut off or damaged there",
+                    "export the stack again");
+    }
+    store_samples(volume, volume.grid.index(0, 0, z), slice, type);
+  }
+}
+
+}  // namespace
+
+GreyVolume read_nrrd(const std::filesystem::path& path, double memory_limit) {
+  const Header header = read_header(path);
+  const Fields& fields = header.fields;
+  if (fields.contains("data file") || fields.contains("datafile"))
+    refuse_file(path, "data file", "the values stand in another file", kRemedy);
+  std::vector<double> sizes;
+  if (field(path, fields, "dimension") != "3" || !append_numbers(field(path, fields, "sizes"), sizes) ||
+      sizes.size() != 3 || std::any_of(sizes.begin(), sizes.end(), [](double n) { return !(n >= 1 && n < 1e5); }))
+    refuse_file(path, "sizes", "expected a volume of three axes", kRemedy);
+  const SampleType type = sample_type(path, fields);
+  const std::string encoding = field(path, fields, "encoding");
+  if (encoding != "raw" && encoding != "gzip" && encoding != "gz")
+    refuse_file(path, "encoding", "'" + encoding + "' is not read", kRemedy);
+  GreyVolume volume = new_volume(
+      path, {static_cast<int>(sizes[0]), static_cast<int>(sizes[1]), static_cast<int>(sizes[2])}, type, memory_limit);
+  volume.grid.spacing = spacing_of(path, fields);
+  if (encoding == "raw")
+    read_samples(path, header.bytes, volume, type);
+  else
+    read_gzip(path, header.bytes, volume, type);
+  return volume;
+}
+
+}  // namespace shape_pipeline
