@@ -51,9 +51,12 @@ double extent_along(const catalog::FacePlane& plane, const catalog::ConvexPart& 
   return deepest;
 }
 
-std::string provenance_json(DecompositionOptions options, int parts_asked, const LevelFigures& measured) {
-  options.parts = parts_asked;
-  return "{\"options\":" + options_json(options) +
+/// `searched`: the search that found the level, which under a time budget has an effort and a seed of its own.
+std::string provenance_json(DecompositionOptions asked, const DecompositionOptions& searched, int parts_asked,
+                            const LevelFigures& measured) {
+  asked.parts = parts_asked;
+  return "{\"options\":" + options_json(asked) + ",\"search\":{\"seed\":" + std::to_string(searched.seed) +
+         ",\"effort\":" + number(searched.effort) + "}" +
          ",\"measured\":{\"ledge_area_ratio\":" + number(measured.ledge_area) +
          ",\"smallest_thickness\":" + number(measured.smallest_thickness) +
          ",\"smallest_volume\":" + number(measured.smallest_volume) +
@@ -81,7 +84,7 @@ void refuse_misfit(const catalog::LevelOfDetail& level) {
 }
 
 catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, LevelSearch& search, int parts_asked,
-                                  const DecompositionOptions& options) {
+                                  const DecompositionOptions& options, const DecompositionOptions& asked) {
   const FoundLevel& found = search.find(parts_asked);
   if (found.parts.empty())
     throw catalog::InputError("mesh: no convex parts that are " + mode_name(options.mode) +
@@ -98,16 +101,17 @@ catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, LevelSearch& 
   refuse_misfit(level);
   LevelFigures measured = figures(level.parts);
   measured.ledge_area = found.ledge_area;
-  level.provenance.options = provenance_json(options, parts_asked, measured);
+  level.provenance.options = provenance_json(asked, options, parts_asked, measured);
   return level;
 }
 
 std::vector<catalog::LevelOfDetail> make_levels(const catalog::TriangleMesh& solid, const ErrorMeasurement& measure,
                                                 const std::vector<int>& part_counts,
-                                                const DecompositionOptions& options) {
+                                                const DecompositionOptions& options,
+                                                const DecompositionOptions& asked) {
   LevelSearch search(solid, options);
   std::vector<catalog::LevelOfDetail> levels;
-  for (const int count : part_counts) levels.push_back(make_level(measure, search, count, options));
+  for (const int count : part_counts) levels.push_back(make_level(measure, search, count, options, asked));
   return levels;
 }
 
@@ -116,18 +120,19 @@ double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 /// The best levels of whole searches, each of twice the effort of the one before, as many as fit into the time. A
 /// search that finds nothing counts as long as another finds something.
 std::vector<catalog::LevelOfDetail> levels_in_time(const catalog::TriangleMesh& solid, const ErrorMeasurement& measure,
-                                                   const std::vector<int>& part_counts, DecompositionOptions options) {
+                                                   const std::vector<int>& part_counts,
+                                                   const DecompositionOptions& asked) {
   constexpr double kFirstEffort = 0.1, kGrowth = 2;
-  const std::uint64_t seed = options.seed;
+  DecompositionOptions options = asked;
   const double begin = cpu_seconds();
   std::vector<catalog::LevelOfDetail> best;
   std::exception_ptr refusal;
   options.effort = kFirstEffort;
   for (std::uint64_t round = 0;; ++round) {
     const double round_begin = cpu_seconds();
-    options.seed = round == 0 ? seed : sub_seed(seed, round);
+    options.seed = round == 0 ? asked.seed : sub_seed(asked.seed, round);
     try {
-      std::vector<catalog::LevelOfDetail> found = make_levels(solid, measure, part_counts, options);
+      std::vector<catalog::LevelOfDetail> found = make_levels(solid, measure, part_counts, options, asked);
       if (best.empty()) best = found;
       for (std::size_t k = 0; k < found.size(); ++k)
         if (found[k].error.symmetric_difference < best[k].error.symmetric_difference) best[k] = std::move(found[k]);
@@ -175,7 +180,7 @@ std::vector<catalog::LevelOfDetail> decompose_ladder(const catalog::TriangleMesh
   const ErrorMeasurement measure(solid);
   std::vector<catalog::LevelOfDetail> levels = options.time_budget > 0
                                                    ? levels_in_time(solid, measure, part_counts, options)
-                                                   : make_levels(solid, measure, part_counts, options);
+                                                   : make_levels(solid, measure, part_counts, options, options);
   for (catalog::LevelOfDetail& level : levels) {
     level.provenance.options.back() = ',';
     level.provenance.options += "\"mesh\":" + surface.notes.json() + "}";

@@ -72,7 +72,7 @@ struct LevelFigures {
 /// which stay hollow) and several bodies (`bodies`). Surfaces that lie wholly in the rock, so that they would count it
 /// twice, are left out. Surfaces that cut one another are refused if that puts more than 0.1 % of the volume in doubt.
 /// Provenance: `options` holds the options, the LevelFigures and what was found in the mesh as JSON,
-/// {"options": {...}, "measured": {...}, "mesh": {...}}; the caller fills in the rest.
+/// {"options": {...}, "search": {"seed", "effort"}, "measured": {...}, "mesh": {...}}; the caller fills in the rest.
 /// Throws catalog::InputError for a mesh that bounds no solid, for options out of range, where no part keeps the bound,
 /// and where the parts miss the mesh: by all its volume, or volume-true by 5 % of it (few parts of thin shells).
 catalog::LevelOfDetail decompose(const catalog::TriangleMesh& mesh, const DecompositionOptions& options = {});

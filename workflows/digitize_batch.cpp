@@ -43,8 +43,11 @@ DigitizationOptions digitization_options(const ScanSettings& settings) {
   if (settings.is_isotropic) options.remeshing.style = RemeshingStyle::isotropic;
   if (!settings.size.empty()) {
     options.sieve_size = parse_quantity(settings.size, Dimension::length);
-    if (!options.sieve_size || !(*options.sieve_size > 0))
-      throw catalog::InputError("--size: expected a length above 0 such as '30 mm', found '" + settings.size + "'");
+    constexpr double kSmallest = 1e-12,
+                     kLargest = 1e12;  // [m], as of scans: beyond, moments leave the range of numbers
+    if (!options.sieve_size || !(*options.sieve_size >= kSmallest && *options.sieve_size <= kLargest))
+      throw catalog::InputError("--size: expected a length from 1e-12 to 1e12 m such as '30 mm', found '" +
+                                settings.size + "'");
   }
   return options;
 }

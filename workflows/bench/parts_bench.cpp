@@ -36,7 +36,7 @@ double largest_reach(const ShapeLevels& rock) {
 
 /// What the bed answers, and what it costs. A run that fails says why in each figure.
 struct Response {
-  PouredBed poured;
+  PouredBed poured{{}, {}, kFailedRun, kFailedRun, kFailedRun, kFailedRun, kFailedRun};
   double angle = kFailedRun;
   EmptiedBed emptied{kFailedRun, kFailedRun};
   std::string failure;

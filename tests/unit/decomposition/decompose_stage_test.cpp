@@ -98,6 +98,10 @@ TEST(DecomposeStage, KeepsWhatIsCurrentAndRemakesWhatIsNot) {
   options.quality.seed = 5;
   EXPECT_EQ(made_new(), 3);
   EXPECT_EQ(shapes.summary(*shapes.find("cube")).levels.size(), 12u) << "another seed has not";
+  options.quality.time_budget = 0.01;
+  EXPECT_EQ(made_new(), 3);
+  EXPECT_EQ(made_new(), 0) << "a level made in a time is kept for the same time";
+  options.quality.time_budget = 0;
   catalog::ShapeRecord other = shape("cube", solids::box({0, 0, 0}, {1, 1, 2}));
   shapes.store_shape(other);
   EXPECT_EQ(made_new(), 3);

@@ -55,6 +55,8 @@ TEST(DigitizeTool, ExitStatusesOfTheCommandLine) {
   EXPECT_EQ(no_unit.status, 3);
   EXPECT_NE(no_unit.errors.find("--unit"), std::string::npos);
   EXPECT_EQ(digitize(folder, "box.stl --into a.talus --unit parsec").status, 3);
+  for (const char* size : {"1e150 km", "1e-30 mm", "0 mm"})
+    EXPECT_EQ(digitize(folder, "box.stl --into a.talus --unit mm --size '" + std::string(size) + "'").status, 3);
   EXPECT_FALSE(std::filesystem::exists(folder / "a.talus"));
 }
 

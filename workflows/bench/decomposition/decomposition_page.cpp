@@ -169,15 +169,20 @@ std::string listed(const std::vector<std::string>& names) {
 /// CPU time of the cases measured, rows apart from what is measured beside them.
 std::string spent_text(const FigureTable& figures, const std::vector<std::string>& cases) {
   double rows = 0, rest = 0;
+  int timed = 0;
   for (const std::string& name : cases) {
     const double time = figures(name, kCaseTime);
     if (std::isnan(time)) continue;
+    ++timed;
     const bool is_beside = std::any_of(std::begin(kBesideRows), std::end(kBesideRows),
                                        [&](const char* beginning) { return name.starts_with(beginning); });
     (is_beside ? rest : rows) += time;
   }
-  return "This page took " + fixed((rows + rest) / 60, 1) + " CPU minutes: " + fixed(rows / 60, 1) +
-         " for the rows of goals, " + fixed(rest / 60, 1) + " for times, gains of effort and time, and fronts.";
+  return (timed == static_cast<int>(cases.size())
+              ? std::string("This page")
+              : "The " + std::to_string(timed) + " of " + std::to_string(cases.size()) + " cases that were timed") +
+         " took " + fixed((rows + rest) / 60, 1) + " CPU minutes: " + fixed(rows / 60, 1) + " for the rows of goals, " +
+         fixed(rest / 60, 1) + " for times, gains of effort and time, and fronts.";
 }
 
 std::string head(const std::vector<ReportedFigure>& figures, const PageFrame& frame) {
@@ -244,8 +249,8 @@ std::string decomposition_page(const std::vector<ReportedFigure>& figures, const
                     study_table(table, kEffortCase, kEffortStudy));
   if (has_case(figures, kBudgetCase))
     page += section("Time budget",
-                    "What more time gains (`--time-budget`, which bounds the search; finishing and measuring the level "
-                    "come on top); medians of at most three seeds. A seed is worse than with less time where its "
+                    "What more time gains (`--time-budget`: searches of growing effort, the best kept); medians of at "
+                    "most three seeds. A seed is worse than with less time where its "
                     "difference is above one found with less by more than three standard errors of the measurement. " +
                         anytime_text(table),
                     study_table(table, kBudgetCase, kBudgetStudy));

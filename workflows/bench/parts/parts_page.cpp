@@ -40,7 +40,8 @@ class Levels {
   double distance(const PartsStudy::Row& row) const {
     double largest = 0;
     for (const char* name : kBedAnswers) {
-      const double off = std::abs(answer(row, name) - answer(finest(), name)) / deviation(name);
+      const double difference = std::abs(answer(row, name) - answer(finest(), name));
+      const double off = difference == 0 ? 0 : difference / deviation(name);
       largest = off > largest || std::isnan(off) ? off : largest;
       if (std::isnan(off)) break;
     }

@@ -58,6 +58,14 @@ TEST(PartsPage, SaysWhereEveryLevelDiffers) {
             std::string::npos);
 }
 
+TEST(PartsPage, AnAnswerThatNeverChangesTellsNoLevelsApart) {
+  Figures figures = three_levels();
+  const double deviations[] = {0.002, 1, 0.01, 0};
+  for (std::size_t i = 0; i < std::size(kBedAnswers); ++i)
+    add(figures, "rock-spread", deviation_of(kBedAnswers[i]), deviations[i]);
+  EXPECT_NE(parts_page(figures, {study()}).find("is **4 x 16**"), std::string::npos);
+}
+
 TEST(PartsPage, ConcludesNothingWithoutTheSpread) {
   EXPECT_NE(parts_page(three_levels(), {study()}).find("nothing can be said yet"), std::string::npos);
 }
