@@ -41,7 +41,7 @@ class Levels {
     double largest = 0;
     for (const char* name : kBedAnswers) {
       const double difference = std::abs(answer(row, name) - answer(finest(), name));
-      const double off = difference == 0 ? 0 : difference / deviation(name);
+      const double off = difference == 0 && deviation(name) == 0 ? 0 : difference / deviation(name);
       largest = off > largest || std::isnan(off) ? off : largest;
       if (std::isnan(off)) break;
     }
