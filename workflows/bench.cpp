@@ -130,7 +130,10 @@ fs::path case_file(const Options& options, const BenchCase& bench_case) {
 /// What a case that is kept must have been measured with.
 std::string made_with(const Options& options, const BenchCase& bench_case) {
   std::string text = tool_version() + ": " + command_of(options, bench_case);
-  if (!options.catalogue.empty()) text += ", catalogue " + catalog::sha256_of_file(options.catalogue);
+  if (!bench_case.inputs.empty())
+    text += ", " + bench_case.inputs;
+  else if (!options.catalogue.empty())
+    text += ", catalogue " + catalog::sha256_of_file(options.catalogue);
   if (!options.scans.empty()) text += ", scans in " + fs::absolute(options.scans).lexically_normal().string();
   return text;
 }
