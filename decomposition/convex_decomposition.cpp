@@ -11,7 +11,7 @@
 
 #include "catalog/input_error.h"
 #include "catalog/mass_properties.h"
-#include "decomposition/assembly/level_search.h"
+#include "decomposition/assembly/body_search.h"
 #include "decomposition/decomposition_quality.h"
 #include "decomposition/geometry/random.h"
 #include "decomposition/solid/solid_surface.h"
@@ -68,22 +68,29 @@ std::string provenance_json(DecompositionOptions asked, const DecompositionOptio
          ",\"most_faces\":" + std::to_string(measured.most_faces) + "}}";
 }
 
+std::string remedy_for_few(int parts, int bodies) {
+  if (parts >= bodies)
+    return "so few parts cannot stand for it; ask for more parts, thinner ones, more effort or another seed";
+  return "it has " + std::to_string(bodies) + " bodies, too far apart for fewer parts; ask for at least " +
+         std::to_string(bodies) + " parts, or keep the largest body alone with --bodies largest";
+}
+
 /// Parts that stand for nothing of the mesh are no level of detail: few parts of thin shells, say.
-void refuse_misfit(const catalog::LevelOfDetail& level) {
+/// `bodies`: that the mesh has, apart from one another.
+void refuse_misfit(const catalog::LevelOfDetail& level, int bodies) {
   constexpr double kLargestDifference = 1, kLargestVolumeError = 0.05;  // of the mesh's volume
   const bool is_volume_off =
       level.key.mode == FitMode::volume_true && std::abs(level.error.volume_error) > kLargestVolumeError;
   if (level.error.symmetric_difference < kLargestDifference && !is_volume_off) return;
+  const int parts = level.key.parts_asked;
   char text[256];
-  std::snprintf(
-      text, sizeof text,
-      "mesh: its %d parts differ from it by %.0f %% of its volume, their volume by %.1f %%: so few parts cannot stand "
-      "for it; ask for more parts, thinner ones, more effort or another seed",
-      level.key.parts_asked, 100 * level.error.symmetric_difference, 100 * level.error.volume_error);
-  throw catalog::InputError(text);
+  std::snprintf(text, sizeof text, "mesh: its %d %s from it by %.0f %% of its volume, their volume by %.1f %%: ", parts,
+                parts == 1 ? "part differs" : "parts differ", 100 * level.error.symmetric_difference,
+                100 * level.error.volume_error);
+  throw catalog::InputError(text + remedy_for_few(parts, bodies));
 }
 
-catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, LevelSearch& search, int parts_asked,
+catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, BodySearch& search, int parts_asked,
                                   const DecompositionOptions& options, const DecompositionOptions& asked) {
   const FoundLevel& found = search.find(parts_asked);
   if (found.parts.empty())
@@ -98,9 +105,9 @@ catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, LevelSearch& 
   }
   level.mass_properties = catalog::mass_properties(moments);
   level.error = measure(level.parts);
-  refuse_misfit(level);
+  refuse_misfit(level, search.bodies());
   LevelFigures measured = figures(level.parts);
-  measured.ledge_area = found.ledge_area;
+  if (found.coverage.covered_area > 0) measured.ledge_area = found.coverage.ledge_area / found.coverage.covered_area;
   level.provenance.options = provenance_json(asked, options, parts_asked, measured);
   return level;
 }
@@ -109,7 +116,7 @@ std::vector<catalog::LevelOfDetail> make_levels(const catalog::TriangleMesh& sol
                                                 const std::vector<int>& part_counts,
                                                 const DecompositionOptions& options,
                                                 const DecompositionOptions& asked) {
-  LevelSearch search(solid, options);
+  BodySearch search(solid, options);
   std::vector<catalog::LevelOfDetail> levels;
   for (const int count : part_counts) levels.push_back(make_level(measure, search, count, options, asked));
   return levels;

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "catalog/mass_properties.h"
-#include "decomposition/assembly/face_kinds.h"
 #include "decomposition/fit/column_measure.h"
 #include "decomposition/fit/part_finish.h"
 #include "decomposition/fit/partition_finish.h"
@@ -58,6 +57,12 @@ double volume_of(const std::vector<BuiltPart>& parts) {
   return volume;
 }
 
+/// What the parts of a bound leave between them and a mesh of that volume [m3]; infinite if there are none.
+double bound_gap(const FoundLevel& level, double volume) {
+  if (level.parts.empty()) return std::numeric_limits<double>::infinity();
+  return std::abs(volume_of(level.parts) - volume);
+}
+
 /// The parts moved by a map of points and planes and built anew; none if one collapses.
 template <class Map>
 std::vector<BuiltPart> mapped(const std::vector<BuiltPart>& parts, double snap, const Map& map) {
@@ -86,6 +91,12 @@ struct Scaling {
 };
 
 }  // namespace
+
+int fewer_parts(int parts) { return static_cast<int>(std::bit_floor(static_cast<unsigned>(parts - 1))); }
+
+FoundLevel nearer_to_bound(FoundLevel level, const FoundLevel& other, double volume) {
+  return level.parts.empty() || bound_gap(other, volume) < bound_gap(level, volume) ? other : level;
+}
 
 std::vector<BuiltPart> LevelSearch::in_frame_of_mesh(std::vector<BuiltPart> parts) const {
   if (frame_.is_identity()) return parts;
@@ -287,16 +298,17 @@ const FoundLevel& LevelSearch::find(int parts_asked) {
   FoundLevel level = searched(parts_asked);
   if (options_.mode != FitMode::volume_true && parts_asked > 1) {
     // A bound may cost more parts more than they gain: then fewer are better.
-    const FoundLevel& fewer = find(static_cast<int>(std::bit_floor(static_cast<unsigned>(parts_asked - 1))));
-    if (level.parts.empty() || bound_gap(fewer) < bound_gap(level)) level = fewer;
+    const FoundLevel& fewer = find(fewer_parts(parts_asked));
+    level = nearer_to_bound(std::move(level), fewer, volume_);
   }
   return levels_[parts_asked] = std::move(level);
 }
 
-/// What the parts of a bound leave between them and the mesh [m3]; infinite if there are none.
-double LevelSearch::bound_gap(const FoundLevel& level) const {
-  if (level.parts.empty()) return std::numeric_limits<double>::infinity();
-  return std::abs(volume_of(level.parts) - volume_);
+double LevelSearch::expected_misfit(int parts) {
+  const CutTree& tree = race_.stage(0, parts);
+  double misfit = 0;
+  for (const int piece : tree.pieces(parts)) misfit += tree.piece(piece).error;
+  return misfit * volume_ / race_.solid().volume();
 }
 
 FoundLevel LevelSearch::searched(int parts_asked) {
@@ -327,9 +339,7 @@ FoundLevel LevelSearch::marked(std::vector<BuiltPart> parts, bool is_apart) cons
   // Parts fitted jointly share their outlines on the cuts, but for corners that the rules have cost some.
   if (!is_apart) limits.smallest_ledge = kLargeLedge;
   const CutCoverage coverage = mark_faces(parts, cuts, limits);
-  FoundLevel level{std::move(parts), 0};
-  if (coverage.covered_area > 0) level.ledge_area = coverage.ledge_area / coverage.covered_area;
-  return level;
+  return {std::move(parts), coverage};
 }
 
 }  // namespace decomposition
