@@ -71,31 +71,33 @@ std::string provenance_json(DecompositionOptions asked, const DecompositionOptio
 std::string remedy_for_few(int parts, int bodies) {
   if (parts >= bodies)
     return "so few parts cannot stand for it; ask for more parts, thinner ones, more effort or another seed";
-  return "it has " + std::to_string(bodies) + " bodies, too far apart for fewer parts; ask for at least " +
+  return "it has " + std::to_string(bodies) + " bodies, which fewer parts cannot stand for; ask for at least " +
          std::to_string(bodies) + " parts, or keep the largest body alone with --bodies largest";
 }
 
 /// Parts that stand for nothing of the mesh are no level of detail: few parts of thin shells, say.
-/// `bodies`: that the mesh has, apart from one another.
-void refuse_misfit(const catalog::LevelOfDetail& level, int bodies) {
+void refuse_misfit(const catalog::LevelOfDetail& level, const BodySearch& search) {
   constexpr double kLargestDifference = 1, kLargestVolumeError = 0.05;  // of the mesh's volume
+  constexpr double kMostMissing = 0.25;  // where parts would have to span bodies that lie apart
   const bool is_volume_off =
       level.key.mode == FitMode::volume_true && std::abs(level.error.volume_error) > kLargestVolumeError;
-  if (level.error.symmetric_difference < kLargestDifference && !is_volume_off) return;
   const int parts = level.key.parts_asked;
+  const bool loses_bodies = parts < search.heaps() && level.error.missing_volume > kMostMissing;
+  if (level.error.symmetric_difference < kLargestDifference && !is_volume_off && !loses_bodies) return;
   char text[256];
   std::snprintf(text, sizeof text, "mesh: its %d %s from it by %.0f %% of its volume, their volume by %.1f %%: ", parts,
                 parts == 1 ? "part differs" : "parts differ", 100 * level.error.symmetric_difference,
                 100 * level.error.volume_error);
-  throw catalog::InputError(text + remedy_for_few(parts, bodies));
+  throw catalog::InputError(text + remedy_for_few(parts, search.bodies()));
 }
 
 catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, BodySearch& search, int parts_asked,
                                   const DecompositionOptions& options, const DecompositionOptions& asked) {
   const FoundLevel& found = search.find(parts_asked);
   if (found.parts.empty())
-    throw catalog::InputError("mesh: no convex parts that are " + mode_name(options.mode) +
-                              " could be fitted to it; ask for more parts, or for thinner or smaller ones");
+    throw catalog::InputError("mesh: no convex parts that are " + mode_name(options.mode) + " could be fitted to it; " +
+                              (parts_asked < search.bodies() ? remedy_for_few(parts_asked, search.bodies())
+                                                             : "ask for more parts, or for thinner or smaller ones"));
   catalog::LevelOfDetail level;
   level.key = {parts_asked, options.vertex_cap, options.face_cap, options.mode};
   catalog::VolumeMoments moments;
@@ -105,7 +107,7 @@ catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, BodySearch& s
   }
   level.mass_properties = catalog::mass_properties(moments);
   level.error = measure(level.parts);
-  refuse_misfit(level, search.bodies());
+  refuse_misfit(level, search);
   LevelFigures measured = figures(level.parts);
   if (found.coverage.covered_area > 0) measured.ledge_area = found.coverage.ledge_area / found.coverage.covered_area;
   level.provenance.options = provenance_json(asked, options, parts_asked, measured);

@@ -8,6 +8,7 @@
 
 #include "catalog/mass_properties.h"
 #include "decomposition/assembly/part_gap.h"
+#include "decomposition/geometry/box_heaps.h"
 #include "decomposition/solid/round_frame.h"
 #include "decomposition/solid/surface_pieces.h"
 
@@ -70,6 +71,12 @@ void BodySearch::find_bodies() {
     add_mesh(body->mesh, taker.mesh);
     taker.volume += body->volume;
   }
+}
+
+int BodySearch::heaps() const {
+  std::vector<Box> boxes;
+  for (const Body& body : bodies_) boxes.push_back(bounding_box(body.mesh));
+  return static_cast<int>(heaps_of(boxes).size());
 }
 
 BodySearch::Group BodySearch::all_bodies() const {

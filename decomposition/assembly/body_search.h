@@ -23,6 +23,8 @@ class BodySearch {
   const FoundLevel& find(int parts_asked);
   /// That may have parts of their own.
   int bodies() const { return static_cast<int>(bodies_.size()); }
+  /// Of these, those whose boxes meet counted as one.
+  int heaps() const;
 
  private:
   struct Body {

@@ -28,6 +28,8 @@ constexpr double kVolumeAgreement = 2e-4;  // ... to this share
 constexpr double kLeastFactor = 0.8, kMostFactor = 1.25;  // of the volume asked of parts fitted alone
 // Share of the volume: inscribed parts with more void have lost the solid, so that none of its surface is in them.
 constexpr double kLargestVoid = 0.005;
+// What a cap of V vertices costs n enclosing parts of a ball: kCapCost / V / n^(2/3) of its volume, about.
+constexpr double kCapCost = 2.2;
 constexpr double kExactSnap = 1e-9;  // of the size: fitted points touch their cut planes already
 
 Vec3 middle_of(const std::vector<std::vector<Vec3>>& parts) {
@@ -306,8 +308,15 @@ const FoundLevel& LevelSearch::find(int parts_asked) {
 
 double LevelSearch::expected_misfit(int parts) {
   const CutTree& tree = race_.stage(0, parts);
+  const std::vector<int> pieces = tree.pieces(parts);
   double misfit = 0;
-  for (const int piece : tree.pieces(parts)) misfit += tree.piece(piece).error;
+  for (const int number : pieces) {
+    const Piece& piece = tree.piece(number);
+    misfit += piece.error;
+    // Enclosing pieces are compared by hulls that know no cap.
+    if (race_.plan().encloses && !piece.is_exact)
+      misfit += kCapCost / options_.vertex_cap * std::pow(pieces.size(), -2.0 / 3) * piece.region.volume;
+  }
   return misfit * volume_ / race_.solid().volume();
 }
 

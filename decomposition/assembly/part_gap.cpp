@@ -24,8 +24,7 @@ struct Corners {
       for (std::size_t k = 0; k < face.vertices.size(); ++k) {
         const int v = face.vertices[k], next = face.vertices[(k + 1) % face.vertices.size()];
         if (v > next) continue;  // the face beyond has it the other way round
-        edges.push_back(
-            normalized(points[static_cast<std::size_t>(next)] - points[static_cast<std::size_t>(v)]));
+        edges.push_back(normalized(points[static_cast<std::size_t>(next)] - points[static_cast<std::size_t>(v)]));
       }
     }
   }

@@ -66,4 +66,10 @@ inline Box bounding_box(const std::vector<Vec3>& points) {
   return box;
 }
 
+inline Box bounding_box(const catalog::TriangleMesh& mesh) {
+  Box box{to_vec3(mesh.vertices.front()), to_vec3(mesh.vertices.front())};
+  for (const catalog::Point& p : mesh.vertices) box.extend(to_vec3(p));
+  return box;
+}
+
 }  // namespace decomposition

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "catalog/mass_properties.h"
+#include "decomposition/geometry/box_heaps.h"
 #include "decomposition/geometry/random.h"
 #include "decomposition/solid/ray_grid.h"
 #include "decomposition/solid/round_frame.h"
@@ -121,29 +121,6 @@ RayVolumes traced(const catalog::TriangleMesh& mesh, double volume, const std::v
   return result;
 }
 
-Box box_of(const catalog::TriangleMesh& mesh) {
-  std::vector<Vec3> points;
-  for (const catalog::Point& p : mesh.vertices) points.push_back(to_vec3(p));
-  return bounding_box(points);
-}
-
-using Heap = std::vector<std::size_t>;
-
-/// Numbers of boxes such that those of different heaps are apart, the heaps in the order of their first box.
-std::vector<Heap> heaps_of(const std::vector<Box>& boxes) {
-  std::vector<std::size_t> heap_of(boxes.size());
-  std::iota(heap_of.begin(), heap_of.end(), std::size_t{0});
-  for (std::size_t a = 0; a < boxes.size(); ++a)
-    for (std::size_t b = a + 1; b < boxes.size(); ++b) {
-      const auto [low, high] = std::minmax({heap_of[a], heap_of[b]});
-      if (low != high && boxes[a].meets(boxes[b])) std::replace(heap_of.begin(), heap_of.end(), high, low);
-    }
-  std::vector<Heap> result(boxes.size());
-  for (std::size_t k = 0; k < boxes.size(); ++k) result[heap_of[k]].push_back(k);
-  std::erase_if(result, [](const Heap& heap) { return heap.empty(); });
-  return result;
-}
-
 /// The same in the round frame of the mesh.
 RayVolumes traced_round(const catalog::TriangleMesh& mesh, std::vector<catalog::TriangleMesh> hulls,
                         const QualityOptions& options) {
@@ -161,12 +138,11 @@ double volume_of(const catalog::TriangleMesh& mesh) { return catalog::volume_mom
 RayVolumes ray_volumes(const catalog::TriangleMesh& mesh, const std::vector<catalog::TriangleMesh>& bodies,
                        const std::vector<catalog::TriangleMesh>& hulls, const QualityOptions& options) {
   std::vector<Box> boxes;
-  for (const catalog::TriangleMesh& body : bodies) boxes.push_back(box_of(body));
-  for (const catalog::TriangleMesh& hull : hulls) boxes.push_back(box_of(hull));
+  for (const catalog::TriangleMesh& body : bodies) boxes.push_back(bounding_box(body));
+  for (const catalog::TriangleMesh& hull : hulls) boxes.push_back(bounding_box(hull));
   const std::vector<Heap> heaps = bodies.empty() ? std::vector<Heap>{} : heaps_of(boxes);
-  const bool has_lone_parts = std::any_of(heaps.begin(), heaps.end(), [&](const Heap& heap) {
-    return heap.front() >= bodies.size();
-  });
+  const bool has_lone_parts =
+      std::any_of(heaps.begin(), heaps.end(), [&](const Heap& heap) { return heap.front() >= bodies.size(); });
   if (heaps.size() < 2 || has_lone_parts) return traced_round(mesh, hulls, options);
   RayVolumes result;
   double variance = 0, parts = 0, parts_union = 0;

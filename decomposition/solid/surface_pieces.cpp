@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "catalog/mass_properties.h"
+#include "decomposition/geometry/box_heaps.h"
 #include "decomposition/solid/ray_grid.h"
 
 namespace decomposition {
@@ -176,6 +177,19 @@ std::vector<catalog::TriangleMesh> separate_bodies(const catalog::TriangleMesh& 
     const int body = body_of[static_cast<std::size_t>(found.piece_of[f])];
     add_face(mesh, f, number, result[static_cast<std::size_t>(body)]);
   }
+  return result;
+}
+
+std::vector<catalog::TriangleMesh> bodies_apart(const catalog::TriangleMesh& mesh) {
+  const std::vector<catalog::TriangleMesh> bodies = separate_bodies(mesh);
+  std::vector<Box> boxes;
+  for (const catalog::TriangleMesh& body : bodies) boxes.push_back(bounding_box(body));
+  std::vector<catalog::TriangleMesh> result;
+  for (const Heap& heap : heaps_of(boxes)) {
+    result.emplace_back();
+    for (const std::size_t body : heap) add_mesh(bodies[body], result.back());
+  }
+  if (result.size() == 1) result.clear();
   return result;
 }
 

@@ -47,4 +47,7 @@ void add_mesh(const catalog::TriangleMesh& other, catalog::TriangleMesh& mesh);
 /// single body, or has surfaces that are neither body nor cavity.
 std::vector<catalog::TriangleMesh> separate_bodies(const catalog::TriangleMesh& mesh);
 
+/// The same, with bodies whose boxes meet in one mesh; none if that makes one.
+std::vector<catalog::TriangleMesh> bodies_apart(const catalog::TriangleMesh& mesh);
+
 }  // namespace decomposition
