@@ -31,7 +31,7 @@ struct DecompositionOptions {
   // as fit into it, at least one, of which each level keeps the best; so more time never gives a worse level. How many
   // fit depends on the machine. 0: none.
   double time_budget = 0;
-  double smallest_thickness = 0.1;  // of a part / thickness of the whole
+  double smallest_thickness = 0.1;  // of a part / thickness of the whole, of several bodies of the thickest
   double smallest_volume = 0.01;    // of a part / volume of the whole
   int threads = 0;                  // 0: as many as the machine has
 };
@@ -69,9 +69,12 @@ struct LevelFigures {
 /// that the search finds; pieces beside exact ones, and those of shells whose sections are no convex polygons, are
 /// fitted one by one, each to its own volume, with their cuts' ledges, and scaled together to the mesh's. The error is
 /// measured (measure_error). The mesh must be closed; it may have handles, cavities (hollows closed off from outside,
-/// which stay hollow) and several bodies (`bodies`). Surfaces that lie wholly in the rock, so that they would count it
-/// twice, are left out. Surfaces that cut one another are refused if that puts more than 0.1 % of the volume in doubt.
-/// Provenance: `options` holds the options, the LevelFigures and what was found in the mesh as JSON,
+/// which stay hollow) and several bodies (`bodies`). Bodies apart are divided one by one, as well as each would be
+/// alone: all have a part (but those too small for one), further parts go where they gain most; bodies whose parts
+/// would meet are divided together. Fewer parts than bodies span some, or are refused where more than a quarter of the
+/// volume would be missing. Surfaces that lie wholly in the rock, so that they would count it twice, are left out.
+/// Surfaces that cut one another are refused if that puts more than 0.1 % of the volume in doubt. Provenance: `options`
+/// holds the options, the LevelFigures and what was found in the mesh as JSON,
 /// {"options": {...}, "search": {"seed", "effort"}, "measured": {...}, "mesh": {...}}; the caller fills in the rest.
 /// Throws catalog::InputError for a mesh that bounds no solid, for options out of range, where no part keeps the bound,
 /// and where the parts miss the mesh: by all its volume, or volume-true by 5 % of it (few parts of thin shells).

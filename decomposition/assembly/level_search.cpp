@@ -312,10 +312,11 @@ double LevelSearch::expected_misfit(int parts) {
   double misfit = 0;
   for (const int number : pieces) {
     const Piece& piece = tree.piece(number);
-    misfit += piece.error;
-    // Enclosing pieces are compared by hulls that know no cap.
-    if (race_.plan().encloses && !piece.is_exact)
-      misfit += kCapCost / options_.vertex_cap * std::pow(pieces.size(), -2.0 / 3) * piece.region.volume;
+    if (!race_.plan().encloses || piece.is_exact)
+      misfit += piece.error;
+    else  // compared by hulls that are estimates and know no cap
+      misfit += std::fmax(0.0, piece.error) +
+                kCapCost / options_.vertex_cap * std::pow(pieces.size(), -2.0 / 3) * piece.region.volume;
   }
   return misfit * volume_ / race_.solid().volume();
 }
