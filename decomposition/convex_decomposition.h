@@ -19,6 +19,8 @@ enum class SeparateBodies {
   refuse
 };
 
+inline constexpr double kLeastEffort = 0.1, kMostEffort = 100;
+
 struct DecompositionOptions {
   int parts = 8;        // at most; fewer where more would not help or would make slivers
   int vertex_cap = 32;  // of each part, 8 to 64
@@ -28,8 +30,9 @@ struct DecompositionOptions {
   std::uint64_t seed = 1;  // same mesh, options and seed: same bytes, whatever `threads` is
   double effort = 1;       // scales the number of cuts and fits tried, 0.1 to 100; time grows in proportion
   // CPU time [s] for all levels together: instead of one search of `effort`, whole searches of growing effort, as many
-  // as fit into it, at least one, of which each level keeps the best; so more time never gives a worse level. How many
-  // fit depends on the machine. 0: none.
+  // as fit into it, at least one, up to the greatest effort, of which each level keeps the best: one that keeps the
+  // rules on edges and faces, then the one of least error; so more time never gives a worse level. How many fit depends
+  // on the machine. 0: none.
   double time_budget = 0;
   double smallest_thickness = 0.1;  // of a part / thickness of the whole, of several bodies of the thickest
   double smallest_volume = 0.01;    // of a part / volume of the whole
@@ -80,8 +83,19 @@ struct LevelFigures {
 /// and where the parts miss the mesh: by all its volume, or volume-true by 5 % of it (few parts of thin shells).
 catalog::LevelOfDetail decompose(const catalog::TriangleMesh& mesh, const DecompositionOptions& options = {});
 
-/// Several levels at once, sharing one search. `options.parts` is not used. Each level is the same as decompose() would
-/// give for it alone (without a time budget); the cuts move from level to level, so levels are not nested.
+/// A level, or why there is none.
+struct LevelOutcome {
+  catalog::LevelOfDetail level;
+  std::string refusal;  // empty: the level is there
+};
+
+/// Several levels at once, sharing one search, in the order asked for. `options.parts` is not used. Each level is the
+/// same as decompose() would give for it alone (without a time budget); the cuts move from level to level, so levels
+/// are not nested. One that cannot be made says why; throws as decompose() for what no number of parts would change.
+std::vector<LevelOutcome> decompose_levels(const catalog::TriangleMesh& mesh, const std::vector<int>& part_counts,
+                                           const DecompositionOptions& options = {});
+
+/// The same where all are needed: throws InputError where one cannot be made.
 std::vector<catalog::LevelOfDetail> decompose_ladder(const catalog::TriangleMesh& mesh,
                                                      const std::vector<int>& part_counts,
                                                      const DecompositionOptions& options = {});

@@ -143,6 +143,7 @@ FoundLevel BodySearch::searched(int parts_asked) {
     FoundLevel level;
     for (const FoundLevel* of_group : levels) {
       level.parts.insert(level.parts.end(), of_group->parts.begin(), of_group->parts.end());
+      level.keeps_rules = level.keeps_rules && of_group->keeps_rules;
       level.coverage.covered_area += of_group->coverage.covered_area;
       level.coverage.ledge_area += of_group->coverage.ledge_area;
     }

@@ -166,7 +166,7 @@ std::vector<BuiltPart> LevelSearch::built(const Partition& partition) const {
   return parts;
 }
 
-std::vector<BuiltPart> LevelSearch::found_jointly(int count) {
+LevelSearch::Finish LevelSearch::found_jointly(int count) {
   const std::vector<TreeRace::Start>& all = race_.starts(count);
   const auto at_once = static_cast<std::size_t>(
       std::max(1.0, std::round((race_.plan().encloses ? kFinalsEnclosing : kFinals) * std::sqrt(options_.effort))));
@@ -186,7 +186,7 @@ std::vector<BuiltPart> LevelSearch::found_jointly(int count) {
     }
     if (best.keeps_rules) break;
   }
-  return best.parts;
+  return best;
 }
 
 bool LevelSearch::is_acceptable(const std::vector<BuiltPart>& parts) const {
@@ -330,8 +330,17 @@ FoundLevel LevelSearch::searched(int parts_asked) {
     std::vector<BuiltPart> parts =
         options_.mode == FitMode::enclosing ? found_as_hulls(cut, count) : std::vector<BuiltPart>{};
     const bool is_apart = !parts.empty() || fits_better_apart(cut, count);
-    if (parts.empty()) parts = is_apart ? found_apart(cut, count) : found_jointly(count);
-    if (!parts.empty()) return marked(std::move(parts), is_apart);
+    bool keeps_rules = true;
+    if (parts.empty() && is_apart) parts = found_apart(cut, count);
+    if (!is_apart) {
+      Finish finish = found_jointly(count);
+      parts = std::move(finish.parts);
+      keeps_rules = finish.keeps_rules;
+    }
+    if (parts.empty()) continue;
+    FoundLevel level = marked(std::move(parts), is_apart);
+    level.keeps_rules = keeps_rules;
+    return level;
   }
   return {};
 }

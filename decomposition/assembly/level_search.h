@@ -16,6 +16,7 @@ namespace decomposition {
 struct FoundLevel {
   std::vector<BuiltPart> parts;
   CutCoverage coverage;
+  bool keeps_rules = true;  // on edges and faces (PartRules), but for what may break them; a bound may leave no room
 };
 
 /// The largest of 1, 2, 4, ... below a number of parts above 1.
@@ -47,7 +48,7 @@ class LevelSearch {
   FoundLevel searched(int parts_asked);
   Finish finished(Partition partition) const;
   std::vector<BuiltPart> built(const Partition& partition) const;
-  std::vector<BuiltPart> found_jointly(int count);
+  Finish found_jointly(int count);
   bool fits_better_apart(const CutTree& tree, int count);
   std::vector<BuiltPart> found_apart(const CutTree& tree, int count) const;
   std::vector<BuiltPart> found_as_hulls(const CutTree& tree, int count) const;

@@ -109,8 +109,8 @@ TEST(SeparateBodies, NearOrInterlockedOnesAreStillAPartition) {
   for (Point& p : link.vertices) p = {p[0], p[2], -p[1]};
   const TriangleMesh chain = solids::together({ring, link});
   for (const int parts : {2, 8}) expect_partition(decompose(chain, quick(parts)));
-  expect_partition(decompose(
-      solids::together({solids::box({0, 0, 0}, {1, 1, 1}), solids::box({1, 0, 0}, {2, 2, 2})}), quick(2)));
+  expect_partition(
+      decompose(solids::together({solids::box({0, 0, 0}, {1, 1, 1}), solids::box({1, 0, 0}, {2, 2, 2})}), quick(2)));
   const catalog::LevelOfDetail near = decompose(two_balls(1, 2.02), quick(2));
   expect_partition(near);
   EXPECT_LT(near.error.symmetric_difference, 0.06);  // a twentieth of a ball and what the cut between them costs
@@ -129,7 +129,8 @@ TEST(SeparateBodies, BoundsHoldForEach) {
 TEST(SeparateBodies, ErrorsOfBodiesFarApartAreMeasuredOneByOne) {
   const double side = 0.9;
   const auto cubes = [](double edge) {
-    return solids::together({solids::box({0, 0, 0}, {edge, edge, edge}), solids::box({500, 0, 0}, {500 + edge, edge, edge})});
+    return solids::together(
+        {solids::box({0, 0, 0}, {edge, edge, edge}), solids::box({500, 0, 0}, {500 + edge, edge, edge})});
   };
   const std::vector<catalog::ConvexPart> small = decompose(cubes(side), quick(2)).parts;
   ASSERT_EQ(small.size(), 2u);
