@@ -9,6 +9,7 @@
 
 #include "catalog/mass_properties.h"
 #include "decomposition/fit/column_measure.h"
+#include "decomposition/fit/joint_misfit.h"
 #include "decomposition/fit/part_finish.h"
 #include "decomposition/fit/partition_finish.h"
 #include "decomposition/geometry/parallel_for.h"

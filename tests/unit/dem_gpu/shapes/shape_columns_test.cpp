@@ -35,7 +35,8 @@ void expect_same(const std::vector<Entry>& found, const std::vector<Entry>& expe
 }
 
 TEST(ShapeColumns, ChosenShapesAreThoseMadeAlone) {
-  const dem_gpu::Shape box = box_shape({1, 2, 3}), hexapod = dem_gpu::polyhedral_shape("hexapod", test_support::hexapod()),
+  const dem_gpu::Shape box = box_shape({1, 2, 3}),
+                       hexapod = dem_gpu::polyhedral_shape("hexapod", test_support::hexapod()),
                        ball = dem_gpu::sphere_shape("ball", 0.5);
   constexpr dem_gpu::Real kCap = 0.4;
   const HostShapeColumns all =
