@@ -79,7 +79,7 @@ std::string provenance_json(DecompositionOptions asked, const DecompositionOptio
 
 std::string remedy_for_few(int parts, int bodies) {
   if (parts >= bodies)
-    return "so few parts cannot stand for it; ask for more parts, thinner ones, more effort or another seed";
+    return "so few parts cannot stand for it; ask for more parts, thinner or smaller ones, more effort or another seed";
   return "it has " + std::to_string(bodies) + " bodies, which fewer parts cannot stand for; ask for at least " +
          std::to_string(bodies) + " parts, or keep the largest body alone with --bodies largest";
 }

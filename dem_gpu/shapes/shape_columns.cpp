@@ -157,7 +157,7 @@ HostShapeColumns chosen_shapes(const HostShapeColumns& columns, const std::vecto
   for (const int row : rows) {
     ShapeRange range = columns.shapes[static_cast<std::size_t>(row)];
     const int first = range.first_part;
-    range.first_part = static_cast<int>(chosen.parts.size());
+    if (range.part_count > 0) range.first_part = static_cast<int>(chosen.parts.size());
     for (int p = first; p < first + range.part_count; ++p)
       copy_part(columns, columns.parts[static_cast<std::size_t>(p)], chosen);
     chosen.shapes.push_back(range);
