@@ -160,11 +160,12 @@ catalog::ShapeCatalog open_existing(const std::string& path) {
     throw catalog::InputError(path +
                               ": is a folder, expected a catalogue; to decompose the scans in it say where the "
                               "shapes go and in which unit they are: --into ore.talus --unit mm");
+  if (looks_like_a_scan(path))
+    throw catalog::InputError(path + ": has the ending of a scan, expected a catalogue; make one with talus digitize " +
+                              path +
+                              " --unit mm --into ore.talus, or decompose it at once: add --into ore.talus --unit mm");
   if (!std::filesystem::exists(path))
     throw catalog::InputError(path + ": no such catalogue; make one with talus digitize ... --into " + path);
-  if (looks_like_a_scan(path))
-    throw catalog::InputError(path + ": is a scan, expected a catalogue; make one with talus digitize " + path +
-                              " --unit mm --into ore.talus, or decompose it at once: add --into ore.talus --unit mm");
   if (std::filesystem::is_regular_file(path) && std::filesystem::file_size(path) == 0)
     throw catalog::InputError(path +
                               ": is an empty file, expected a catalogue; make one with talus digitize ... --into");
