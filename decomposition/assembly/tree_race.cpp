@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "decomposition/fit/joint_misfit.h"
 #include "decomposition/fit/partition_start.h"
 #include "decomposition/geometry/parallel_for.h"
 
