@@ -151,7 +151,7 @@ int make_virtual_scans(const CommandLine& line) {
   set.flaws.gap_angle = *parse_quantity(std::to_string(line.gap_degrees) + " deg", Dimension::angle);
   const std::optional<double> noise = parse_quantity(line.noise, Dimension::length);
   if (!noise || !(*noise >= 0))
-    throw catalog::InputError("--noise: expected a length such as '0.03 mm', found '" + line.noise + "'");
+    throw catalog::UsageError("--noise: expected a length such as '0.03 mm', found '" + line.noise + "'");
   set.flaws.noise_sigma = *noise;
   for (const fs::path& file : shape_pipeline::write_virtual_scans(line.virtual_scan_folder, set))
     std::printf("%s\n", file.string().c_str());
