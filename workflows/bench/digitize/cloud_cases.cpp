@@ -35,10 +35,16 @@ double mean_distance(const TriangleMesh& from, const TriangleMesh& to) {
 }
 
 /// Names as in the catalogue; what a scanner's noise and resolution are feared to change.
-const std::vector<std::string> kSpreadDescriptors{
-    "volume",           "surface_area",       "sphericity_wadell",         "convexity_volume_ratio",
-    "zingg_s_over_i",   "zingg_i_over_l",     "roundness_corner_radius",   "angularity_corner_radius",
-    "corner_area_share", "sphericity_krumbein_intercept"};
+const std::vector<std::string> kSpreadDescriptors{"volume",
+                                                  "surface_area",
+                                                  "sphericity_wadell",
+                                                  "convexity_volume_ratio",
+                                                  "zingg_s_over_i",
+                                                  "zingg_i_over_l",
+                                                  "roundness_corner_radius",
+                                                  "angularity_corner_radius",
+                                                  "corner_area_share",
+                                                  "sphericity_krumbein_intercept"};
 
 struct Scanner {
   std::string name;
@@ -66,8 +72,7 @@ CaseResult measure_cloud(const std::filesystem::path& scans, const CloudPair& pa
   const auto add = [&](const std::string& name, double value, const std::string& unit, std::optional<Goal> goal) {
     result.figures.push_back({name, value, unit, goal, ""});
   };
-  const TriangleMesh truth =
-      sp::repair_mesh(sp::read_mesh(scans / pair.mesh, 1), {0, sp::Wrapping::never}).mesh;
+  const TriangleMesh truth = sp::repair_mesh(sp::read_mesh(scans / pair.mesh, 1), {0, sp::Wrapping::never}).mesh;
   const CpuClock clock;
   const sp::Reconstruction made =
       sp::reconstruct_surface(sp::read_cloud(scans / pair.cloud, sp::CloudReading{}).cloud, {});
@@ -105,9 +110,9 @@ CaseResult measure_scanner_spread() {
         flaws.noise_sigma = kScanners[s].noise * recipe.size;
         const sp::Reconstruction made = sp::reconstruct_surface(sp::virtual_scan(rock, flaws), {});
         if (!made.refusal.empty()) {
-          result.figures.push_back({std::string(rock_name) + ", " + kScanners[s].name + ", " +
-                                        std::to_string(points) + " points",
-                                    std::nullopt, "", std::nullopt, made.refusal});
+          result.figures.push_back(
+              {std::string(rock_name) + ", " + kScanners[s].name + ", " + std::to_string(points) + " points",
+               std::nullopt, "", std::nullopt, made.refusal});
           continue;
         }
         for (const auto& [name, value] : sp::shape_descriptors(made.mesh)) seen[s][name].push_back(value);
@@ -115,9 +120,10 @@ CaseResult measure_scanner_spread() {
     for (const std::string& name : kSpreadDescriptors) {
       const std::string what = std::string(rock_name) + ", " + name + ": spread over ";
       for (std::size_t s = 0; s < kScanners.size(); ++s)
-        result.figures.push_back({what + "resolutions, " + kScanners[s].name, 100 * spread(seen[s][name]), "%", {}, ""});
-      result.figures.push_back({what + "scanners and resolutions",
-                                100 * spread(joined(seen[0][name], seen[1][name])), "%", {}, ""});
+        result.figures.push_back(
+            {what + "resolutions, " + kScanners[s].name, 100 * spread(seen[s][name]), "%", {}, ""});
+      result.figures.push_back(
+          {what + "scanners and resolutions", 100 * spread(joined(seen[0][name], seen[1][name])), "%", {}, ""});
     }
   }
   return result;

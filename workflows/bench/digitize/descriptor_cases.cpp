@@ -121,7 +121,7 @@ Descriptors ellipsoid_of(int detail) {
 
 /// Of meshes inscribed in the ellipsoid, extrapolated: their errors fall with the square of the edge.
 double ellipsoid_error() {
-  const Descriptors coarse = ellipsoid_of(32), middle = ellipsoid_of(64), fine = ellipsoid_of(128);
+  const Descriptors coarse = ellipsoid_of(16), middle = ellipsoid_of(32), fine = ellipsoid_of(64);
   const double volume = 4 * kPi / 3 * kAxes[0] * kAxes[1] * kAxes[2], area = ellipsoid_area();
   const Descriptors exact{{"volume", volume},
                           {"surface_area", area},
@@ -132,7 +132,8 @@ double ellipsoid_error() {
                           {"equivalent_diameter_volume", std::cbrt(6 * volume / kPi)}};
   double largest = 0;
   for (const auto& [name, value] : exact) {
-    const double first = (4 * middle.at(name) - coarse.at(name)) / 3, second = (4 * fine.at(name) - middle.at(name)) / 3;
+    const double first = (4 * middle.at(name) - coarse.at(name)) / 3,
+                 second = (4 * fine.at(name) - middle.at(name)) / 3;
     largest = std::fmax(largest, std::abs((16 * second - first) / 15 / value - 1));
   }
   return largest;
@@ -146,8 +147,7 @@ CaseResult measure_exact_descriptors() {
       {"tetrahedron", tetrahedron()},
       {"cube", symmetric(1, 6, std::sqrt(3.0) / 2)},
       {"octahedron", symmetric(std::sqrt(2.0) / 3, 2 * std::sqrt(3.0), 1 / std::sqrt(2.0))},
-      {"dodecahedron",
-       symmetric((15 + 7 * five) / 4, 3 * std::sqrt(25 + 10 * five), std::sqrt(3.0) * (1 + five) / 4)},
+      {"dodecahedron", symmetric((15 + 7 * five) / 4, 3 * std::sqrt(25 + 10 * five), std::sqrt(3.0) * (1 + five) / 4)},
       {"icosahedron", symmetric(5 * (3 + five) / 12, 5 * std::sqrt(3.0), std::sqrt(10 + 2 * five) / 4)},
       {"hexagonal-prism", hexagonal_prism(4)}};
   CaseResult result;

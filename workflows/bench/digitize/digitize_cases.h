@@ -23,9 +23,9 @@ CaseResult measure_cloud(const std::filesystem::path& scans, const CloudPair& pa
 /// Grains of a virtual tomogram against the meshes that it was made of.
 struct StackCase {
   std::string name;
-  double diameter;         // of each grain [voxels]
+  double diameter;  // of each grain [voxels]
   int grains;
-  double one_to_one = 0;   // share asked for; 0: no goal
+  double one_to_one = 0;    // share asked for; 0: no goal
   double volume_error = 0;  // mean magnitude asked for; 0: no goal
 };
 inline const std::vector<StackCase> kStackCases{{"rocks-10", 10, 40},
@@ -33,9 +33,8 @@ inline const std::vector<StackCase> kStackCases{{"rocks-10", 10, 40},
                                                 {"rocks-40", 40, 16},
                                                 {"rocks-60", 60, 12, 0.95, 0.01},
                                                 {"rocks-80", 80, 8}};
-inline const std::vector<StackCase> kScanStackCases{{"scans-20", 20, 40},
-                                                    {"scans-40", 40, 20},
-                                                    {"scans-60", 60, 20, 0.95, 0.01}};
+inline const std::vector<StackCase> kScanStackCases{
+    {"scans-20", 20, 40}, {"scans-40", 40, 20}, {"scans-60", 60, 20, 0.95, 0.01}};
 /// Of the meshes in turn.
 CaseResult measure_stack(const StackCase& stack, const std::vector<catalog::TriangleMesh>& meshes);
 /// Of random rocks, every fourth with a notch, and a ball.
