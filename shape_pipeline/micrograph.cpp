@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSmoothing = 1;        // [pixels]; below it is the noise of the detector
-constexpr double kThinnest = 0.5;       // radius of the largest disc inside / of equal area; threads and films are thinner
+constexpr double kSmoothing = 1;    // [pixels]; below it is the noise of the detector
+constexpr double kThinnest = 0.45;  // radius of the largest disc inside / of equal area; threads and films are thinner
 constexpr double kDarkestShare = 0.26;  // mean grey of a grain over the usual contrast; films are darker
 
 /// The image without its strip.
@@ -37,15 +37,16 @@ GreyImage upper_rows(const GreyImage& image, int rows) {
 double pixel_size(const fs::path& path, const GreyImage& image, const MicrographOptions& options, Micrograph& result) {
   if (options.pixel_size > 0) return options.pixel_size;
   if (!(options.scale_bar_length > 0))
-    throw catalog::InputError(path.string() +
-                              ": images state no pixel size that could be trusted; add --pixel '0.5 um', or --scale-bar "
-                              "'100 um' with what its scale bar stands for");
+    throw catalog::InputError(
+        path.string() +
+        ": images state no pixel size that could be trusted; add --pixel '0.5 um', or --scale-bar "
+        "'100 um' with what its scale bar stands for");
   const std::optional<ScaleBar> bar = find_scale_bar(image, result.strip_top);
   if (!bar)
-    throw catalog::InputError(
-        path.string() + ": found no " +
-        (result.strip_top < image.height ? "straight bar in the data strip" : "data strip with a scale bar below the image") +
-        "; measure the scale bar and give the pixel's side by --pixel '0.5 um'");
+    throw catalog::InputError(path.string() + ": found no " +
+                              (result.strip_top < image.height ? "straight bar in the data strip"
+                                                               : "data strip with a scale bar below the image") +
+                              "; measure the scale bar and give the pixel's side by --pixel '0.5 um'");
   result.bar_pixels = bar->length();
   const double bottom = bar->top + bar->rows, top = bar->top;
   result.bar = {{bar->left, top}, {bar->right, top}, {bar->right, bottom}, {bar->left, bottom}};
@@ -118,9 +119,10 @@ Micrograph digitize_micrograph(const fs::path& path, const MicrographOptions& op
   const LabelImage labels = separated_grains(grains, grain_mask(smooth, levels.threshold), levels);
   collect(labels, smooth, levels, options, result);
   if (result.grains.empty())
-    throw catalog::InputError(path.string() + ": shows no whole grain (" + std::to_string(result.at_border.size()) +
-                              " cut by the border, " + std::to_string(result.specks) +
-                              " specks), expected bright grains on a dark background; for the reverse add --dark-grains");
+    throw catalog::InputError(
+        path.string() + ": shows no whole grain (" + std::to_string(result.at_border.size()) + " cut by the border, " +
+        std::to_string(result.specks) +
+        " specks), expected bright grains on a dark background; for the reverse add --dark-grains");
   return result;
 }
 

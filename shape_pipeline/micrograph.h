@@ -9,10 +9,10 @@
 namespace shape_pipeline {
 
 struct MicrographOptions {
-  double pixel_size = 0;        // [m]; 0: from the scale bar
-  double scale_bar_length = 0;  // [m] of the bar in the image's data strip; 0: there is a pixel size
+  double pixel_size = 0;         // [m]; 0: from the scale bar
+  double scale_bar_length = 0;   // [m] of the bar in the image's data strip; 0: there is a pixel size
   bool has_dark_grains = false;  // on a bright background; else bright on dark
-  double least_diameter = 5;    // [pixels] of equal area; what is smaller is counted as a speck
+  double least_diameter = 5;     // [pixels] of equal area; what is smaller is counted as a speck
 };
 
 struct MicrographGrain {
@@ -21,12 +21,12 @@ struct MicrographGrain {
 };
 
 struct Micrograph {
-  int width = 0, height = 0;               // [pixels], strip included
-  int strip_top = 0;                       // first row of the data strip, which is left out; the height if there is none
-  double pixel_size = 0;                   // [m]
-  double bar_pixels = 0;                   // length of the scale bar; 0 if none was read
-  Outline bar;                             // where it lies; empty if none was read
-  std::vector<MicrographGrain> grains;     // whole ones, the largest first
+  int width = 0, height = 0;            // [pixels], strip included
+  int strip_top = 0;                    // first row of the data strip, which is left out; the height if there is none
+  double pixel_size = 0;                // [m]
+  double bar_pixels = 0;                // length of the scale bar; 0 if none was read
+  Outline bar;                          // where it lies; empty if none was read
+  std::vector<MicrographGrain> grains;  // whole ones, the largest first
   std::vector<MicrographGrain> at_border;  // cut by the border or the strip: no figures
   std::size_t specks = 0;                  // below the least diameter
   std::size_t films = 0;                   // too thin or too dark for grains

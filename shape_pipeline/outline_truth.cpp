@@ -147,10 +147,13 @@ OutlineScore score_outlines(const Micrograph& micrograph, const std::vector<Outl
     if (is_whole(outline, micrograph)) real_diameters.push_back(diameter(outline));
   }
   OutlineScore score{found.size(), real.size(), match_count(found, real)};
-  const auto share = [&](std::size_t of) { return of ? static_cast<double>(score.matched) / static_cast<double>(of) : 0; };
+  const auto share = [&](std::size_t of) {
+    return of ? static_cast<double>(score.matched) / static_cast<double>(of) : 0;
+  };
   score.precision = share(score.found);
   score.recall = share(score.real);
-  score.f1 = 2 * static_cast<double>(score.matched) / static_cast<double>(std::max<std::size_t>(1, score.found + score.real));
+  score.f1 =
+      2 * static_cast<double>(score.matched) / static_cast<double>(std::max<std::size_t>(1, score.found + score.real));
   score.median_found = median(std::move(found_diameters));
   score.median_real = median(std::move(real_diameters));
   return score;

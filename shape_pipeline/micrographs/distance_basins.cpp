@@ -11,10 +11,10 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr float kSaddleShare = 0.97f;   // of the lower peak
-constexpr float kSaddleDepth = 0.5f;    // [pixels]; less is the grain of the pixels
-constexpr float kCapShare = 0.5f;       // of the radius of the basin's largest disc
-constexpr float kCapHalfWidth = 3;      // [pixels]; narrower caps are rough edges
+constexpr float kSaddleShare = 0.97f;  // of the lower peak
+constexpr float kSaddleDepth = 0.5f;   // [pixels]; less is the grain of the pixels
+constexpr float kCapShare = 0.5f;      // of the radius of the basin's largest disc
+constexpr float kCapHalfWidth = 2.4f;  // [pixels]; narrower caps are rough edges
 constexpr float kDiagonal = 1.41421356f;
 
 struct Step {

@@ -9,7 +9,7 @@ namespace shape_pipeline {
 /// peaks down (Meyer & Beucher 1990), in which two basins become one where the saddle between them is hardly narrower
 /// than the lower peak (above 97 % of it, or less than half a pixel below); then caps, which stand out of a basin and
 /// have no peak of their own, since what they belong to lies behind: where the largest disc about a pixel inside the
-/// basin has less than half the radius of the basin's largest, and the cap is wider than 6 pixels. Labels 1 to count.
+/// basin has less than half the radius of the basin's largest, and the cap is wider than 4.8 pixels. Labels 1 to count.
 LabelImage distance_basins(const Mask& mask);
 
 /// Largest label of an image.

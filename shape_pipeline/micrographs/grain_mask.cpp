@@ -10,9 +10,9 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr double kNoises = 5;          // one pixel in 3 million of a Gaussian background passes
+constexpr double kNoises = 5;           // one pixel in 3 million of a Gaussian background passes
 constexpr double kLeastContrast = 0.2;  // share of it; grains in the shade have a third
-constexpr int kLargestPit = 60;        // [pixels]; gaps between touching grains are mostly larger
+constexpr int kLargestPit = 60;         // [pixels]; gaps between touching grains are mostly larger
 constexpr std::size_t kBins = 256;
 
 std::size_t bin_of(float value) {

@@ -153,8 +153,7 @@ std::vector<Outline> region_outlines(const LabelImage& regions, const GreyImage&
   const std::vector<Box> boxes = region_boxes(regions);
   std::vector<Outline> outlines(boxes.size());
   for (std::size_t label = 1; label < boxes.size(); ++label) {
-    outlines[label] =
-        level_outline(region_field(regions, grey, levels, static_cast<int>(label), boxes[label]));
+    outlines[label] = level_outline(region_field(regions, grey, levels, static_cast<int>(label), boxes[label]));
     for (PlanePoint& p : outlines[label]) p = {p[0] + boxes[label].left, p[1] + boxes[label].top};
   }
   return outlines;

@@ -166,7 +166,8 @@ double inscribed_circle_radius(const Outline& outline, double tolerance) {
     return Square{{x, y}, half, depth_inside(outline, {x, y})};
   };
   std::priority_queue<Square> open;
-  open.push(square_at((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, std::max(high[0] - low[0], high[1] - low[1]) / 2));
+  open.push(
+      square_at((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, std::max(high[0] - low[0], high[1] - low[1]) / 2));
   Square best = square_at(moments.centroid[0], moments.centroid[1], tolerance);
   while (!open.empty() && open.top().bound() > best.depth + tolerance) {
     const Square square = open.top();

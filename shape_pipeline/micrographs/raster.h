@@ -27,9 +27,9 @@ struct Raster {
   int y_of(std::size_t i) const { return static_cast<int>(i / static_cast<std::size_t>(width)); }
 };
 
-using GreyImage = Raster<float>;     // 0 (dark) to 255
-using Mask = Raster<std::uint8_t>;   // 0 or 255
-using LabelImage = Raster<int>;      // 0: background, else the number of a region
+using GreyImage = Raster<float>;      // 0 (dark) to 255
+using Mask = Raster<std::uint8_t>;    // 0 or 255
+using LabelImage = Raster<int>;       // 0: background, else the number of a region
 using DistanceImage = Raster<float>;  // [pixels]
 
 }  // namespace shape_pipeline
