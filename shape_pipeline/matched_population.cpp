@@ -19,13 +19,13 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr double kFormPixels = 20;      // diameter from which on an outline tells a form
+constexpr double kFormPixels = 20;  // diameter from which on an outline tells a form
 constexpr std::size_t kFewestForms = 10;
 constexpr int kLowestWave = 3, kHighestWave = 12;  // 1 is the centre's place, 2 the ellipse
-constexpr int kWaves = 24;              // plane waves of one grain
+constexpr int kWaves = 24;                         // plane waves of one grain
 constexpr int kRays = 128;
-constexpr int kViews = 8;               // silhouettes of each grain
-constexpr int kPilotGrains = 64;        // on which power and amplitude are found
+constexpr int kViews = 8;                     // silhouettes of each grain
+constexpr int kPilotGrains = 64;              // on which power and amplitude are found
 constexpr int kPilotDetail = 4, kDetail = 8;  // faces along a quarter turn
 constexpr int kHalvings = 10, kRounds = 3;
 constexpr double kMostFactor = 4;
@@ -38,8 +38,7 @@ std::vector<double> deviations(const Outline& given) {
   std::vector<double> radii = ray_radii(outline, moments.centroid, kRays);
   for (int k = 0; k < kRays; ++k) {
     const double angle = 2 * std::numbers::pi * k / kRays - ellipse.angle;
-    const double radius =
-        0.5 / std::hypot(std::cos(angle) / ellipse.major, std::sin(angle) / ellipse.minor);
+    const double radius = 0.5 / std::hypot(std::cos(angle) / ellipse.major, std::sin(angle) / ellipse.minor);
     radii[static_cast<std::size_t>(k)] = radii[static_cast<std::size_t>(k)] / radius - 1;
   }
   return radii;
@@ -121,7 +120,7 @@ struct Wave {
 
 /// What is drawn of a grain before p and amplitude are known.
 struct Draft {
-  double diameter = 0;              // [m] that its silhouettes are to have
+  double diameter = 0;                // [m] that its silhouettes are to have
   double ratio = 1, other_ratio = 1;  // seen aspect ratios, for I/L and S/I
   double roughness = 0;
   std::vector<Wave> waves;

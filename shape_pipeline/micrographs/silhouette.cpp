@@ -15,8 +15,7 @@ class RayFan {
  public:
   explicit RayFan(int rays) : radii_(static_cast<std::size_t>(rays), 0.0) {
     for (int k = 0; k < rays; ++k)
-      directions_.push_back(
-          {std::cos(2 * std::numbers::pi * k / rays), std::sin(2 * std::numbers::pi * k / rays)});
+      directions_.push_back({std::cos(2 * std::numbers::pi * k / rays), std::sin(2 * std::numbers::pi * k / rays)});
   }
 
   void add(const PlanePoint& a, const PlanePoint& b) {
@@ -27,8 +26,8 @@ class RayFan {
     const double area = a[0] * b[1] - a[1] * b[0];
     const auto end = static_cast<long>(std::floor(last / turn * rays));
     for (long k = static_cast<long>(std::ceil(first / turn * rays)); k <= end; ++k) {
-      const auto ray = static_cast<std::size_t>((k % static_cast<long>(rays) + static_cast<long>(rays)) %
-                                                static_cast<long>(rays));
+      const auto ray =
+          static_cast<std::size_t>((k % static_cast<long>(rays) + static_cast<long>(rays)) % static_cast<long>(rays));
       const PlanePoint& u = directions_[ray];
       const double across = u[0] * (b[1] - a[1]) - u[1] * (b[0] - a[0]);
       if (across != 0) radii_[ray] = std::max(radii_[ray], area / across);
