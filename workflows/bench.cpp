@@ -58,7 +58,7 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
   add_number_list(app, "--threads", options.threads, {1, 1000000},
                   "thread counts to compare, such as 1,2; default: the engine's own choice");
   app.add_option("--catalog", options.catalogue, "shape catalogue, for the benches levels and parts");
-  app.add_option("--scans", options.scans, "folder of scans, for the bench decomposition");
+  app.add_option("--scans", options.scans, "folder of scans, for the benches decomposition and micrographs");
   app.add_option("--seeds", options.seeds, "searches of each level, for the bench decomposition")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

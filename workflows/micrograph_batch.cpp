@@ -119,8 +119,7 @@ std::string comparison_text(const shape_pipeline::FormComparison& row) {
 
 bool are_micrographs(const DigitizeBatchOptions& options, const MicrographSettings& settings) {
   if (settings.is_asked_for()) return true;
-  const auto images =
-      std::count_if(options.inputs.begin(), options.inputs.end(), shape_pipeline::has_image_ending);
+  const auto images = std::count_if(options.inputs.begin(), options.inputs.end(), shape_pipeline::has_image_ending);
   if (images != 0 && images != static_cast<std::ptrdiff_t>(options.inputs.size()))
     throw catalog::UsageError("micrographs and other scans do not go together; digitise them one after the other");
   return images != 0;
@@ -140,9 +139,9 @@ MicrographBatch::MicrographBatch(const DigitizeBatchOptions& options, const Micr
   image_options_.least_diameter = settings.least_diameter;
   population_options_ = {settings.population, settings.seed, third_axis_of(settings.third_axis)};
   settings_.out = folder_of(options, settings);
-  name_ = !options.name.empty()   ? options.name
-          : images_.size() == 1   ? images_[0].stem().string()
-                                  : options.catalog_path.stem().string();
+  name_ = !options.name.empty() ? options.name
+          : images_.size() == 1 ? images_[0].stem().string()
+                                : options.catalog_path.stem().string();
   if (settings.population == 0) return;
   if (options.catalog_path.empty())
     throw catalog::UsageError("no catalogue named for the population; add --into powder.talus, or --population 0");
@@ -200,8 +199,7 @@ void MicrographBatch::store_population() {
     progress_.note(comparison_text(row));
   }
   for (int g = 1; g <= settings_.population; ++g) {
-    catalog::ShapeRecord shape =
-        shape_pipeline::described_shape(population.grains[static_cast<std::size_t>(g) - 1], 0);
+    catalog::ShapeRecord shape = shape_pipeline::described_shape(population.grains[static_cast<std::size_t>(g) - 1], 0);
     shape.name = shape_name(g);
     shape.provenance = provenance;
     shape.checks.insert(shape.checks.end(), checks.begin(), checks.end());

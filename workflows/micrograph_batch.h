@@ -17,12 +17,12 @@ namespace workflows {
 
 /// How micrographs become outlines and a population, as typed.
 struct MicrographSettings {
-  std::string pixel, scale_bar;        // "0.5 um"; one of both
-  std::string third_axis = "drawn";    // or S/I
-  std::filesystem::path out;           // folder of tables; empty: beside the catalogue
+  std::string pixel, scale_bar;      // "0.5 um"; one of both
+  std::string third_axis = "drawn";  // or S/I
+  std::filesystem::path out;         // folder of tables; empty: beside the catalogue
   bool has_dark_grains = false;
-  double least_diameter = 5;           // [pixels]
-  int population = 20;                 // shapes to store
+  double least_diameter = 5;  // [pixels]
+  int population = 20;        // shapes to store
   std::uint64_t seed = 1;
 
   bool is_asked_for() const { return !pixel.empty() || !scale_bar.empty(); }
@@ -33,9 +33,10 @@ struct MicrographSettings {
 bool are_micrographs(const DigitizeBatchOptions& options, const MicrographSettings& settings);
 
 /// Micrographs of one powder, one after the other, into a folder: a table of descriptors (CSV), the outlines (JSON) and
-/// a picture of them over the image (PNG), each named as the image. Of all outlines together a population of solids goes
-/// into the catalogue, named NAME_0001, ..., NAME that of the only image or the catalogue's. What is there from the same
-/// bytes with the same options is skipped; an image that cannot be read is kept as rejected. Throws like DigitizeBatch.
+/// a picture of them over the image (PNG), each named as the image. Of all outlines together a population of solids
+/// goes into the catalogue, named NAME_0001, ..., NAME that of the only image or the catalogue's. What is there from
+/// the same bytes with the same options is skipped; an image that cannot be read is kept as rejected. Throws like
+/// DigitizeBatch.
 class MicrographBatch {
  public:
   MicrographBatch(const DigitizeBatchOptions& options, const MicrographSettings& settings);

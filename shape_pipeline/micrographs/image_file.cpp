@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kLeastSide = 32;         // [pixels]
-constexpr int kLargestPicture = 4000;  // [pixels] a side
+constexpr int kLargestPicture = 3200;  // [pixels] a side
 constexpr char kKinds[] = "expected a PNG, JPEG, BMP or one-page TIFF of 8 or 16 bits";
 
 [[noreturn]] void refuse(const fs::path& path, const std::string& reason) {

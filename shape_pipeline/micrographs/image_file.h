@@ -21,7 +21,7 @@ struct ColourLine {
   bool is_closed = true;
 };
 
-/// Writes the image as PNG, twice as large a side up to 4,000 pixels, with lines over it. Throws InputError if it
+/// Writes the image as PNG, twice as large a side up to 3,200 pixels, with lines over it. Throws InputError if it
 /// cannot.
 void write_picture(const std::filesystem::path& path, const GreyImage& image, const std::vector<ColourLine>& lines);
 
