@@ -96,12 +96,14 @@ Sample sample_of(const std::vector<Outline>& outlines, double pixel) {
     Spectrum spectrum;
     Seen seen = seen_of(outline, spectrum);
     seen.has_form = seen.form.equivalent_diameter >= kFormPixels * pixel;
-    if (seen.has_form) {
-      for (std::size_t wave = 0; wave < spectrum.size(); ++wave) sample.power[wave] += spectrum[wave];
-      sample.forms.push_back(sample.seen.size());
-    }
+    for (std::size_t wave = 0; wave < spectrum.size() && seen.has_form; ++wave) sample.power[wave] += spectrum[wave];
     sample.seen.push_back(seen);
   }
+  std::stable_sort(sample.seen.begin(), sample.seen.end(), [](const Seen& a, const Seen& b) {
+    return a.form.equivalent_diameter < b.form.equivalent_diameter;
+  });
+  for (std::size_t k = 0; k < sample.seen.size(); ++k)
+    if (sample.seen[k].has_form) sample.forms.push_back(k);
   if (sample.forms.size() < kFewestForms)
     throw catalog::InputError("population: " + std::to_string(sample.forms.size()) +
                               " whole outlines of 20 pixels or more, expected 10 at least; take more micrographs, or "
@@ -128,9 +130,11 @@ struct Draft {
   std::vector<double> field;  // at the vertices of the unit sphere
 };
 
-Draft draft_of(const Sample& sample, RandomStream& random) {
+/// The k-th of n grains, from the smallest up: systematic sampling, so that few grains have the sizes of all outlines.
+Draft draft_of(const Sample& sample, int k, int n, RandomStream& random) {
   Draft draft;
-  const std::size_t first = drawn(random, sample.seen.size());
+  const double place = (k + random.uniform()) / n * static_cast<double>(sample.seen.size());
+  const std::size_t first = std::min(sample.seen.size() - 1, static_cast<std::size_t>(place));
   const std::size_t form = sample.seen[first].has_form ? first : sample.forms[drawn(random, sample.forms.size())];
   const std::size_t other = sample.forms[drawn(random, sample.forms.size())];
   draft.diameter = sample.seen[first].form.equivalent_diameter;
@@ -139,14 +143,14 @@ Draft draft_of(const Sample& sample, RandomStream& random) {
   draft.roughness = sample.seen[form].roughness;
   double all = 0;
   for (const double power : sample.power) all += power;
-  for (int k = 0; k < kWaves; ++k) {
+  for (int wave = 0; wave < kWaves; ++wave) {
     double left = random.uniform() * all;
     int number = kLowestWave;
     for (; number < kHighestWave && left >= sample.power[static_cast<std::size_t>(number)]; ++number)
       left -= sample.power[static_cast<std::size_t>(number)];
     draft.waves.push_back({random.direction(), static_cast<double>(number), random.uniform(0, 2 * std::numbers::pi)});
   }
-  for (int k = 0; k < kViews; ++k) draft.views.push_back(random.direction());
+  for (int view = 0; view < kViews; ++view) draft.views.push_back(random.direction());
   return draft;
 }
 
@@ -234,16 +238,21 @@ double halved(const std::function<double(double)>& growing, double target) {
   return (low + high) / 2;
 }
 
-Form fitted_form(const Sample& sample, const std::vector<Seen>& forms, const PopulationOptions& options) {
+Form fitted_form(const Sample& sample, const PopulationOptions& options) {
   Pilot pilot{{}, superquadric_solid({}, kPilotDetail).mesh};
   RandomStream random(options.seed);
   for (int k = 0; k < kPilotGrains; ++k) {
-    pilot.drafts.push_back(draft_of(sample, random));
+    pilot.drafts.push_back(draft_of(sample, k, kPilotGrains, random));
     set_field(pilot.drafts.back(), pilot.sphere);
   }
   Form form;
   form.third_axis = options.third_axis;
-  const double aspect = moments_of(forms, aspect_seen).mean, roughness = moments_of(forms, roughness_seen).mean;
+  // What these very grains' outlines showed, so that the chance of the draw is not fitted.
+  double aspect = 0, roughness = 0;
+  for (const Draft& draft : pilot.drafts) {
+    aspect += draft.ratio / kPilotGrains;
+    roughness += draft.roughness / kPilotGrains;
+  }
   for (int round = 0; round < kRounds; ++round) {
     form.power = halved(
         [&](double power) {
@@ -279,7 +288,7 @@ MatchedPopulation matched_population(const std::vector<Outline>& outlines, doubl
   const Sample sample = sample_of(outlines, pixel);
   std::vector<Seen> forms, made;
   for (const std::size_t k : sample.forms) forms.push_back(sample.seen[k]);
-  const Form form = fitted_form(sample, forms, options);
+  const Form form = fitted_form(sample, options);
   MatchedPopulation population;
   population.ratio_power = form.power;
   population.roughness_factor = form.amplitude;
@@ -287,7 +296,7 @@ MatchedPopulation matched_population(const std::vector<Outline>& outlines, doubl
   const catalog::TriangleMesh sphere = superquadric_solid({}, kDetail).mesh;
   RandomStream random(options.seed + 0x9e3779b97f4a7c15u);  // other grains than the pilot's
   for (int k = 0; k < options.count; ++k) {
-    Draft draft = draft_of(sample, random);
+    Draft draft = draft_of(sample, k, options.count, random);
     set_field(draft, sphere);
     MadeGrain grain = made_grain(draft, form, sphere);
     made.insert(made.end(), grain.silhouettes.begin(), grain.silhouettes.end());

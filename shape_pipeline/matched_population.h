@@ -26,7 +26,7 @@ struct FormComparison {
 };
 
 struct MatchedPopulation {
-  std::vector<catalog::TriangleMesh> grains;  // star-shaped, closed, outward [m]
+  std::vector<catalog::TriangleMesh> grains;  // from the smallest up; star-shaped, closed, outward [m]
   std::vector<FormComparison> comparison;     // equivalent diameter [m], aspect ratio, roughness, solidity, circularity
   double ratio_power = 1;                     // I/L = (seen aspect ratio) to this power
   double roughness_factor = 1;                // of the surface over that seen in the outlines
@@ -35,13 +35,14 @@ struct MatchedPopulation {
 
 /// A population of solids whose silhouettes in random orientation look like the outlines (in metres). An outline does
 /// not show its third axis, so one must be assumed. Each grain takes size, aspect ratio m and roughness of one outline,
-/// drawn at random (outlines below 20 pixels give their size alone), and is an ellipsoid of I/L = m^p whose radii are
-/// changed by a random field of plane waves over the unit sphere, their wave numbers 3 to 12 drawn by the mean power
-/// spectrum of the outlines' deviation from their ellipses: the low-passed outline. p and the field's amplitude are
-/// found by halving on 64 other grains, so that the silhouettes' mean aspect ratio and mean roughness (root mean square
-/// deviation from the ellipse over the radius, wave numbers 3 to 12) are those of the outlines; spreads, solidity and
-/// circularity are not fitted, only compared. The outlines are taken for whole silhouettes, each grain for as
-/// likely to be seen as any. Throws InputError for fewer than 10 outlines of 20 pixels.
+/// drawn by systematic sampling over the sizes (outlines below 20 pixels give their size alone, any other the rest),
+/// and is an ellipsoid of I/L = m^p whose radii are changed by a random field of plane waves over the unit sphere,
+/// their wave numbers 3 to 12 drawn by the mean power spectrum of the outlines' deviation from their ellipses: the
+/// low-passed outline. p and the field's amplitude are found by halving on 64 other grains, so that the silhouettes'
+/// mean aspect ratio and mean roughness (root mean square deviation from the ellipse over the radius, wave numbers 3 to
+/// 12) are those of the outlines; spreads, solidity and circularity are not fitted, only compared. The outlines are
+/// taken for whole silhouettes, each grain for as likely to be seen as any. Throws InputError for fewer than 10
+/// outlines of 20 pixels.
 MatchedPopulation matched_population(const std::vector<Outline>& outlines, double pixel,
                                      const PopulationOptions& options);
 
