@@ -24,10 +24,10 @@ constexpr std::size_t kFewestForms = 10;
 constexpr int kLowestWave = 3, kHighestWave = 12;  // 1 is the centre's place, 2 the ellipse
 constexpr int kWaves = 24;                         // plane waves of one grain
 constexpr int kRays = 128;
-constexpr int kViews = 8;                     // silhouettes of each grain
-constexpr int kPilotGrains = 64;              // on which power and amplitude are found
+constexpr int kViews = 6;                     // silhouettes of each grain
+constexpr int kPilotGrains = 48;              // on which power and amplitude are found
 constexpr int kPilotDetail = 4, kDetail = 8;  // faces along a quarter turn
-constexpr int kHalvings = 10, kRounds = 3;
+constexpr int kHalvings = 10, kRounds = 2;
 constexpr double kMostFactor = 4;
 
 /// Deviation of the outline's radii from those of its ellipse, over them.

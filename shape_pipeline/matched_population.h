@@ -38,7 +38,7 @@ struct MatchedPopulation {
 /// drawn by systematic sampling over the sizes (outlines below 20 pixels give their size alone, any other the rest),
 /// and is an ellipsoid of I/L = m^p whose radii are changed by a random field of plane waves over the unit sphere,
 /// their wave numbers 3 to 12 drawn by the mean power spectrum of the outlines' deviation from their ellipses: the
-/// low-passed outline. p and the field's amplitude are found by halving on 64 other grains, so that the silhouettes'
+/// low-passed outline. p and the field's amplitude are found by halving on 48 other grains, so that the silhouettes'
 /// mean aspect ratio and mean roughness (root mean square deviation from the ellipse over the radius, wave numbers 3 to
 /// 12) are those of the outlines; spreads, solidity and circularity are not fitted, only compared. The outlines are
 /// taken for whole silhouettes, each grain for as likely to be seen as any. Throws InputError for fewer than 10

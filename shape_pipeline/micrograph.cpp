@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 constexpr double kSmoothing = 1;    // [pixels]; below it is the noise of the detector
 constexpr double kThinnest = 0.45;  // radius of the largest disc inside / of equal area; threads and films are thinner
+constexpr double kLeastContrast = 3;    // noises; Otsu parts mere noise at 1.6
 constexpr double kDarkestShare = 0.26;  // mean grey of a grain over the usual contrast; films are darker
 
 /// The image without its strip.
@@ -116,8 +117,8 @@ Micrograph digitize_micrograph(const fs::path& path, const MicrographOptions& op
     for (float& value : grains.values) value = 255 - value;
   const GreyImage smooth = blurred(grains, kSmoothing);
   const GreyLevels levels = grey_levels(smooth);
-  const LabelImage labels = separated_grains(grains, grain_mask(smooth, levels.threshold), levels);
-  collect(labels, smooth, levels, options, result);
+  if (levels.contrast() > kLeastContrast * levels.noise)
+    collect(separated_grains(grains, grain_mask(smooth, levels.threshold), levels), smooth, levels, options, result);
   if (result.grains.empty())
     throw catalog::InputError(
         path.string() + ": shows no whole grain (" + std::to_string(result.at_border.size()) + " cut by the border, " +

@@ -14,7 +14,6 @@ namespace {
 constexpr float kSaddleShare = 0.97f;  // of the lower peak
 constexpr float kSaddleDepth = 0.5f;   // [pixels]; less is the grain of the pixels
 constexpr float kCapShare = 0.5f;      // of the radius of the basin's largest disc
-constexpr float kCapHalfWidth = 2.4f;  // [pixels]; narrower caps are rough edges
 constexpr float kDiagonal = 1.41421356f;
 
 struct Step {
@@ -107,32 +106,33 @@ DistanceImage largest_discs(const DistanceImage& distance, const LabelImage& lab
   return radii;
 }
 
-/// The pixels of one cap, joined by their sides, and how wide it is.
-struct Cap {
+/// The pixels of one patch, joined by their sides, and half its width.
+struct Patch {
   std::vector<std::size_t> pixels;
   float half_width = 0;
 };
 
-Cap cap_at(std::size_t start, Mask& caps, const DistanceImage& width, const LabelImage& labels) {
-  Cap cap{{start}, 0};
-  caps.values[start] = 0;
-  for (std::size_t k = 0; k < cap.pixels.size(); ++k) {
-    const std::size_t i = cap.pixels[k];
-    cap.half_width = std::max(cap.half_width, width.values[i]);
+/// Takes the patch away from the marked pixels.
+Patch patch_at(std::size_t start, Mask& marked, const DistanceImage& width, const LabelImage& labels) {
+  Patch patch{{start}, 0};
+  marked.values[start] = 0;
+  for (std::size_t k = 0; k < patch.pixels.size(); ++k) {
+    const std::size_t i = patch.pixels[k];
+    patch.half_width = std::max(patch.half_width, width.values[i]);
     for (const Step& step : kSteps) {
       const int x = labels.x_of(i) + step.dx, y = labels.y_of(i) + step.dy;
-      if (step.length > 1 || !labels.has(x, y) || !caps(x, y) || labels(x, y) != labels.values[i]) continue;
-      caps(x, y) = 0;
-      cap.pixels.push_back(labels.index(x, y));
+      if (step.length > 1 || !labels.has(x, y) || !marked(x, y) || labels(x, y) != labels.values[i]) continue;
+      marked(x, y) = 0;
+      patch.pixels.push_back(labels.index(x, y));
     }
   }
-  return cap;
+  return patch;
 }
 
-void cut_caps(LabelImage& labels, const DistanceImage& distance) {
+/// Pixels that only small discs of their basin hold.
+Mask cap_pixels(const LabelImage& labels, const DistanceImage& distance) {
   const DistanceImage radii = largest_discs(distance, labels);
-  int next = label_count(labels);
-  std::vector<float> largest(static_cast<std::size_t>(next) + 1, 0.0f);
+  std::vector<float> largest(static_cast<std::size_t>(label_count(labels)) + 1, 0.0f);
   for (std::size_t i = 0; i < labels.values.size(); ++i) {
     float& radius = largest[static_cast<std::size_t>(labels.values[i])];
     radius = std::max(radius, distance.values[i]);
@@ -141,14 +141,7 @@ void cut_caps(LabelImage& labels, const DistanceImage& distance) {
   for (std::size_t i = 0; i < labels.values.size(); ++i)
     if (labels.values[i] && radii.values[i] < kCapShare * largest[static_cast<std::size_t>(labels.values[i])])
       caps.values[i] = 255;
-  const DistanceImage width = distance_to_outside(caps);
-  for (std::size_t i = 0; i < labels.values.size(); ++i) {
-    if (!caps.values[i]) continue;
-    const Cap cap = cap_at(i, caps, width, labels);
-    if (cap.half_width < kCapHalfWidth) continue;
-    ++next;
-    for (const std::size_t pixel : cap.pixels) labels.values[pixel] = next;
-  }
+  return caps;
 }
 
 }  // namespace
@@ -157,8 +150,20 @@ LabelImage distance_basins(const Mask& mask) {
   const DistanceImage distance = distance_to_outside(mask);
   LabelImage labels = flooded_basins(distance);
   number_labels(labels);
-  cut_caps(labels, distance);
+  part_patches(labels, cap_pixels(labels, distance), kLeastPatch);
   return labels;
+}
+
+void part_patches(LabelImage& labels, Mask marked, double width) {
+  const DistanceImage depth = distance_to_outside(marked);
+  int next = label_count(labels);
+  for (std::size_t i = 0; i < labels.values.size(); ++i) {
+    if (!marked.values[i]) continue;
+    const Patch patch = patch_at(i, marked, depth, labels);
+    if (2 * patch.half_width < width) continue;
+    ++next;
+    for (const std::size_t pixel : patch.pixels) labels.values[pixel] = next;
+  }
 }
 
 int label_count(const LabelImage& labels) { return *std::max_element(labels.values.begin(), labels.values.end()); }

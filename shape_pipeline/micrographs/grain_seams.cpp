@@ -23,9 +23,11 @@ constexpr double kWideNeck = 0.70;
 constexpr double kEdgeContrast = 0.24;
 constexpr double kLikeSizes = 0.70;
 constexpr double kNoDent = 0.96;
+constexpr double kLeastShaded = 8;  // [pixels] wide; smaller shades lie on the grain itself
 
 constexpr double kCoreShare = 0.5;      // of a region's largest disc: what is deeper is its core
 constexpr double kGradientScale = 1.5;  // [pixels]; below it is the grain of the surface
+constexpr double kRim = 2;              // [pixels] that the image's blur darkens
 constexpr int kSideReach = 4;           // [pixels] on either side of a seam
 
 /// Distance to the outside or to another region, of every pixel.
@@ -106,7 +108,39 @@ std::vector<RegionShape> region_shapes(const LabelImage& regions) {
   return shapes;
 }
 
+/// Pixels below half the grey of their region, above the background.
+Mask shaded_pixels(const LabelImage& regions, const GreyImage& grey, double background) {
+  const std::vector<double> greys = region_greys(regions, grey);
+  Mask shaded(regions.width, regions.height);
+  for (std::size_t i = 0; i < regions.values.size(); ++i)
+    if (const int label = regions.values[i]; label)
+      shaded.values[i] =
+          grey.values[i] - background < 0.5 * (greys[static_cast<std::size_t>(label)] - background) ? 255 : 0;
+  return shaded;
+}
+
 }  // namespace
+
+std::vector<double> region_greys(const LabelImage& regions, const GreyImage& grey) {
+  const DistanceImage distance = distance_inside(regions);
+  const std::size_t count = static_cast<std::size_t>(label_count(regions)) + 1;
+  std::vector<std::vector<float>> core(count), all(count);
+  for (std::size_t i = 0; i < regions.values.size(); ++i) {
+    const auto label = static_cast<std::size_t>(regions.values[i]);
+    if (label == 0) continue;
+    all[label].push_back(grey.values[i]);
+    if (distance.values[i] > kRim) core[label].push_back(grey.values[i]);
+  }
+  std::vector<double> greys(count, 0.0);
+  for (std::size_t label = 1; label < count; ++label) {
+    std::vector<float>& values = core[label].empty() ? all[label] : core[label];
+    if (values.empty()) continue;
+    const auto quartile = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
+    std::nth_element(values.begin(), quartile, values.end());
+    greys[label] = *quartile;
+  }
+  return greys;
+}
 
 std::vector<double> region_radii(const LabelImage& regions) { return deepest(regions, distance_inside(regions)); }
 
@@ -164,10 +198,12 @@ bool is_one_grain(const Seam& seam) {
 }
 
 LabelImage separated_grains(const GreyImage& grey, const Mask& mask, const GreyLevels& levels) {
-  const GreyImage gradient = gradient_length(blurred(grey, kGradientScale));
-  LabelImage labels = with_seams_on_edges(distance_basins(mask), mask, gradient);
+  const GreyImage gradient = gradient_length(blurred(grey, kGradientScale)), smooth = blurred(grey, 1);
+  LabelImage labels = distance_basins(mask);
+  part_patches(labels, shaded_pixels(labels, smooth, levels.background), kLeastShaded);
+  labels = with_seams_on_edges(labels, mask, gradient);
   LabelSets grains(label_count(labels) + 1);
-  for (const Seam& seam : measured_seams(labels, blurred(grey, 1), levels.background))
+  for (const Seam& seam : measured_seams(labels, smooth, levels.background))
     if (is_one_grain(seam)) grains.join(seam.first, seam.second);
   for (int& label : labels.values) label = grains.root(label);
   number_labels(labels);

@@ -28,8 +28,13 @@ std::vector<Seam> measured_seams(const LabelImage& regions, const GreyImage& gre
 /// two of about one size meet.
 bool is_one_grain(const Seam& seam);
 
-/// The grains of a mask apart from one another, labels 1 to their number. Neither flood nor rule knows circles: grains
-/// may have any shape.
+/// Grey of each region, by label: the lower quartile of its pixels that lie more than two pixels inside, which the blur
+/// of the edge does not reach; of all where there are none. 0 for the background.
+std::vector<double> region_greys(const LabelImage& regions, const GreyImage& grey);
+
+/// The grains of a mask apart from one another, labels 1 to their number. Parts of a region below half its grey (above
+/// the background), where its outline could not run, are grains in the shade behind it. Neither flood nor rule knows
+/// circles: grains may have any shape.
 LabelImage separated_grains(const GreyImage& grey, const Mask& mask, const GreyLevels& levels);
 
 /// Radius of the largest disc inside each region, by label [pixels]; seams count as outside.

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "shape_pipeline/micrographs/distance_basins.h"
+#include "shape_pipeline/micrographs/grain_seams.h"
 #include "shape_pipeline/micrographs/image_filters.h"
 #include "shape_pipeline/micrographs/plane_geometry.h"
 
@@ -15,7 +16,6 @@ namespace {
 
 constexpr double kSeamSmoothing = 1.2;  // [pixels]; as on the seams of tomograms
 constexpr float kSeamNear = 1e-3f;      // weight of other regions from which on there is a seam
-constexpr float kRim = 2;               // [pixels] that the image's blur darkens
 constexpr int kMargin = 5;              // [pixels] about a region, beyond the reach of the smoothing
 
 /// An edge of the grid of pixel centres: from the centre with this index, to the right or downwards.
@@ -87,36 +87,27 @@ std::vector<Box> region_boxes(const LabelImage& regions) {
   return boxes;
 }
 
+/// Grey of the background and of a region.
+struct GreyRange {
+  double low = 0, high = 0;
+};
+
 /// Positive inside of a region, in the pixels of its box.
-Raster<float> region_field(const LabelImage& regions, const GreyImage& grey, const GreyLevels& levels, int label,
+Raster<float> region_field(const LabelImage& regions, const GreyImage& grey, const GreyRange& range, int label,
                            const Box& box) {
   const int width = box.right - box.left + 1, height = box.bottom - box.top + 1;
-  Mask inside(width, height);
   GreyImage own(width, height), other(width, height), field(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const int at = regions(box.left + x, box.top + y);
       own(x, y) = at == label ? 1 : 0;
       other(x, y) = at && at != label ? 1 : 0;
-      inside(x, y) = at == label ? 255 : 0;
     }
-  const DistanceImage distance = distance_to_outside(inside);
-  std::vector<float> core, all;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      if (!inside(x, y)) continue;
-      all.push_back(grey(box.left + x, box.top + y));
-      if (distance(x, y) > kRim) core.push_back(all.back());
-    }
-  std::vector<float>& values = core.empty() ? all : core;
-  const auto quartile = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 4);
-  std::nth_element(values.begin(), quartile, values.end());
-  const double height_of_grey = std::max(1e-3, *quartile - levels.background);
   own = blurred(own, kSeamSmoothing);
   other = blurred(other, kSeamSmoothing);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
-      const double above = (grey(box.left + x, box.top + y) - levels.background) / height_of_grey - 0.5;
+      const double above = (grey(box.left + x, box.top + y) - range.low) / std::max(1e-3, range.high - range.low) - 0.5;
       field(x, y) = static_cast<float>(above);
       if (other(x, y) > kSeamNear) field(x, y) = std::min(field(x, y), own(x, y) - other(x, y));
     }
@@ -151,9 +142,11 @@ Outline level_outline(const Raster<float>& given) {
 
 std::vector<Outline> region_outlines(const LabelImage& regions, const GreyImage& grey, const GreyLevels& levels) {
   const std::vector<Box> boxes = region_boxes(regions);
+  const std::vector<double> greys = region_greys(regions, grey);
   std::vector<Outline> outlines(boxes.size());
   for (std::size_t label = 1; label < boxes.size(); ++label) {
-    outlines[label] = level_outline(region_field(regions, grey, levels, static_cast<int>(label), boxes[label]));
+    outlines[label] = level_outline(
+        region_field(regions, grey, {levels.background, greys[label]}, static_cast<int>(label), boxes[label]));
     for (PlanePoint& p : outlines[label]) p = {p[0] + boxes[label].left, p[1] + boxes[label].top};
   }
   return outlines;

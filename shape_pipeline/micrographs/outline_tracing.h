@@ -14,7 +14,7 @@ namespace shape_pipeline {
 Outline level_outline(const Raster<float>& field);
 
 /// Outline of each region, by label (that of 0 is empty), finer than pixels: where the grey passes halfway between the
-/// background and the region's own (the lower quartile of what lies more than two pixels inside), and towards other
+/// background and the region's own (region_greys), and towards other
 /// regions along the seam, smoothed by a Gaussian of 1.2 pixels. Pores inside are filled. `grey` should be smoothed by
 /// a pixel or so: noise makes perimeters long.
 std::vector<Outline> region_outlines(const LabelImage& regions, const GreyImage& grey, const GreyLevels& levels);
