@@ -19,6 +19,7 @@
 namespace shape_pipeline {
 namespace {
 
+constexpr char kSize[] = "equivalent_diameter";
 constexpr double kFormPixels = 20;  // diameter from which on an outline tells a form
 constexpr std::size_t kFewestForms = 10;
 constexpr int kLowestWave = 3, kHighestWave = 12;  // 1 is the centre's place, 2 the ellipse
@@ -280,7 +281,8 @@ std::string assumption_text(const PopulationOptions& options) {
 }  // namespace
 
 bool FormComparison::agrees(int count) const {
-  return std::abs(made_mean - measured_mean) <= 0.02 * measured_mean + 3 * made_spread / std::sqrt(count);
+  const double finest = name == kSize ? 0 : 0.005;  // ratios are not known better
+  return std::abs(made_mean - measured_mean) <= 0.02 * measured_mean + finest + 3 * made_spread / std::sqrt(count);
 }
 
 MatchedPopulation matched_population(const std::vector<Outline>& outlines, double pixel,
@@ -306,7 +308,7 @@ MatchedPopulation matched_population(const std::vector<Outline>& outlines, doubl
     const Moments seen = moments_of(measured, figure), shown = moments_of(made, figure);
     population.comparison.push_back({name, seen.mean, seen.spread, shown.mean, shown.spread});
   };
-  compare("equivalent_diameter", sample.seen, size_seen);
+  compare(kSize, sample.seen, size_seen);
   compare("aspect_ratio", forms, aspect_seen);
   compare("roughness", forms, roughness_seen);
   compare("solidity", forms, solidity_seen);

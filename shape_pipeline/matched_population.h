@@ -21,7 +21,7 @@ struct FormComparison {
   std::string name;  // of the figure
   double measured_mean = 0, measured_spread = 0, made_mean = 0, made_spread = 0;
 
-  /// Whether the means agree within 2 % and three standard errors of `count` grains.
+  /// Whether the means agree within 2 %, of ratios 0.005 more, and three standard errors of `count` grains.
   bool agrees(int count) const;
 };
 

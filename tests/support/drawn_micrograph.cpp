@@ -31,8 +31,7 @@ cv::Mat drawn(const DrawnMicrograph& drawing) {
     for (int y = 0; y < image.rows; ++y)
       for (int x = 0; x < image.cols; ++x)
         if (const double share = coverage(grain, x, y); share > 0)
-          image.at<float>(y, x) =
-              static_cast<float>((1 - share) * image.at<float>(y, x) + share * grain.grey);
+          image.at<float>(y, x) = static_cast<float>((1 - share) * image.at<float>(y, x) + share * grain.grey);
   if (drawing.blur > 0) cv::GaussianBlur(image, image, {}, drawing.blur);
   cv::RNG random(drawing.seed);
   cv::Mat noise(image.size(), CV_32F);

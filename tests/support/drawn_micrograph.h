@@ -24,8 +24,8 @@ struct DrawnMicrograph {
   std::vector<DrawnGrain> grains;
   double background = 30, blur = 0.8, noise = 4;  // grey values, pixels, grey values
   std::uint64_t seed = 1;
-  int strip = 0;                     // rows of a black data strip below, with letters
-  std::array<int, 2> bar{0, 0};      // first and last pixel + 1 of the white bar in it
+  int strip = 0;                 // rows of a black data strip below, with letters
+  std::array<int, 2> bar{0, 0};  // first and last pixel + 1 of the white bar in it
 };
 
 enum class PixelKind { grey_8, grey_16, colour_8 };

@@ -73,7 +73,7 @@ TEST(DigitizeMicrographs, OthersGoOnPastABadImage) {
   write_drawn(folder / "b_good.png", rows_of_grains());
   write_bytes(folder / "a_empty.png", "");
   write_uniform(folder / "c_black.png", 64, 64, 0);
-  const ToolRun run = digitize(folder, "a_empty.png b_good.png c_black.png --out tables --population 0 --pixel 1e-6");
+  const ToolRun run = digitize(folder, "a_empty.png b_good.png c_black.png --out tables --population 0 --pixel '1 um'");
   EXPECT_EQ(run.status, 3);
   EXPECT_NE(run.errors.find("a_empty.png: is empty"), std::string::npos) << run.errors;
   EXPECT_NE(run.errors.find("c_black.png: is black"), std::string::npos) << run.errors;
@@ -94,11 +94,11 @@ TEST(DigitizeMicrographs, BadOptionsAreRefused) {
   EXPECT_NE(no_size.errors.find("powder.png"), std::string::npos);
   EXPECT_NE(no_size.errors.find("--scale-bar"), std::string::npos) << no_size.errors;
   EXPECT_EQ(digitize(folder, "powder.png --into ore.talus --scale-bar '10 um'").status, 3);  // there is none
-  EXPECT_EQ(digitize(folder, "powder.png --into ore.talus --pixel 1e-6 --third-axis 1.5").status, 3);
-  EXPECT_EQ(digitize(folder, "powder.png --into ore.talus --pixel 1e-6 --scale-bar '10 um'").status, 2);
-  EXPECT_EQ(digitize(folder, "powder.png --pixel 1e-6").status, 2);              // no place for the tables
-  EXPECT_EQ(digitize(folder, "powder.png --pixel 1e-6 --out tables").status, 2);  // no catalogue for the population
-  EXPECT_EQ(digitize(folder, "powder.png --into ore.talus --pixel 1e-6 --unit mm").status, 2);
+  EXPECT_EQ(digitize(folder, "powder.png --into ore.talus --pixel '1 um' --third-axis 1.5").status, 3);
+  EXPECT_EQ(digitize(folder, "powder.png --into ore.talus --pixel '1 um' --scale-bar '10 um'").status, 2);
+  EXPECT_EQ(digitize(folder, "powder.png --pixel '1 um'").status, 2);               // no place for the tables
+  EXPECT_EQ(digitize(folder, "powder.png --pixel '1 um' --out tables").status, 2);  // no catalogue for the population
+  EXPECT_EQ(digitize(folder, "powder.png --into ore.talus --pixel '1 um' --unit mm").status, 2);
   EXPECT_EQ(digitize(folder, "powder.png rock.stl --into ore.talus --unit mm").status, 2);
 }
 

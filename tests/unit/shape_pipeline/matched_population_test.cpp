@@ -75,7 +75,8 @@ TEST(MatchedPopulation, IsTheSameForOneSeed) {
   PopulationOptions options;
   options.count = 3;
   const std::vector<Outline> outlines = wavy_ellipses(12);
-  const MatchedPopulation a = matched_population(outlines, 5e-7, options), b = matched_population(outlines, 5e-7, options);
+  const MatchedPopulation a = matched_population(outlines, 5e-7, options),
+                          b = matched_population(outlines, 5e-7, options);
   options.seed = 2;
   const MatchedPopulation other = matched_population(outlines, 5e-7, options);
   for (std::size_t g = 0; g < 3; ++g) {

@@ -45,10 +45,10 @@ DrawnMicrograph heap() {
   DrawnMicrograph drawing;
   drawing.width = 320;
   drawing.height = 240;
-  drawing.grains = {{60, 60, 30, 30, 0, 150},    {118, 60, 28, 28, 0, 170}, {95, 105, 22, 22, 0, 130},
-                    {213, 62, 12, 12, 0, 75},    {190, 60, 20, 20, 0, 180}, {255, 70, 34, 20, 0.5, 150},
+  drawing.grains = {{60, 60, 30, 30, 0, 150},     {118, 60, 28, 28, 0, 170},  {95, 105, 22, 22, 0, 130},
+                    {213, 62, 12, 12, 0, 75},     {190, 60, 20, 20, 0, 180},  {255, 70, 34, 20, 0.5, 150},
                     {60, 170, 40, 24, -0.4, 160}, {150, 170, 25, 25, 0, 140}, {199, 170, 24, 24, 0, 160},
-                    {260, 180, 9, 9, 0, 120},    {318, 120, 20, 20, 0, 150}, {150, 238, 18, 18, 0, 150}};
+                    {260, 180, 9, 9, 0, 120},     {318, 120, 20, 20, 0, 150}, {150, 238, 18, 18, 0, 150}};
   return drawing;
 }
 
@@ -153,9 +153,9 @@ TEST(Micrograph, BadInputIsRefusedByName) {
   DrawnMicrograph bare;
   write_drawn(folder / "noise.png", bare);
   const std::pair<const char*, const char*> expected[] = {
-      {"none.png", "no such file"}, {"empty.png", "0 bytes"},     {"cut.png", "truncated PNG"},
-      {"cut.jpg", "truncated JPEG"}, {"hurt.png", "save it anew"}, {"text.png", "PNG"},
-      {"black.png", "black"},        {"grey.png", "uniform"},      {"small.png", "31 x 100"},
+      {"none.png", "no such file"},   {"empty.png", "0 bytes"},     {"cut.png", "truncated PNG"},
+      {"cut.jpg", "truncated JPEG"},  {"hurt.png", "save it anew"}, {"text.png", "PNG"},
+      {"black.png", "black"},         {"grey.png", "uniform"},      {"small.png", "31 x 100"},
       {"noise.png", "no whole grain"}};
   for (const auto& [file, cause] : expected) {
     const std::string reason = refusal(folder / file);

@@ -38,8 +38,8 @@ Outline rounded_square(double radius) {
     for (int k = 0; k <= kCorner; ++k) {
       const double angle = kPi / 2 * (quarter + static_cast<double>(k) / kCorner), middle = kPi / 2 * (quarter + 0.5);
       const double reach = (1 - radius) * std::numbers::sqrt2;
-      outline.push_back({reach * std::cos(middle) + radius * std::cos(angle),
-                         reach * std::sin(middle) + radius * std::sin(angle)});
+      outline.push_back(
+          {reach * std::cos(middle) + radius * std::cos(angle), reach * std::sin(middle) + radius * std::sin(angle)});
     }
   return outline;
 }
@@ -93,7 +93,7 @@ TEST(OutlineDescriptors, OfAnLHaveItsPocket) {
 }
 
 TEST(OutlineDescriptors, OfAnEllipseAreThoseOfItsFormula) {
-  constexpr int kCorners = 4000;      // its polygon lacks (2 pi / n)^2 / 6 of the area
+  constexpr int kCorners = 4000;  // its polygon lacks (2 pi / n)^2 / 6 of the area
   constexpr double kPolygon = 1e-5;
   const Figures of(turned(ellipse(2, 1, kCorners), 1.1, 1e-4, {3e-3, 2e-3}));
   EXPECT_NEAR(of["area_imagej"] / (2e-8 * kPi), 1, kPolygon);
