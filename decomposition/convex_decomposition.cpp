@@ -5,13 +5,12 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <exception>
 #include <limits>
 #include <utility>
 
 #include "catalog/input_error.h"
 #include "catalog/mass_properties.h"
-#include "decomposition/assembly/level_search.h"
+#include "decomposition/assembly/body_search.h"
 #include "decomposition/decomposition_quality.h"
 #include "decomposition/geometry/random.h"
 #include "decomposition/solid/solid_surface.h"
@@ -19,7 +18,14 @@
 namespace decomposition {
 namespace {
 
-constexpr double kMostEffort = 100;
+/// "expected 8 to 64"
+std::string range_text(double least, double most) {
+  char text[64];
+  std::snprintf(text, sizeof text, "expected %g to %g", least, most);
+  return text;
+}
+
+constexpr int kFewestVertices = 8, kMostVertices = 64, kFewestFaces = 8, kMostFaces = 2 * kMostVertices - 4;
 
 void check_options(const DecompositionOptions& options, const std::vector<int>& part_counts) {
   const auto require = [](bool holds, const std::string& what) {
@@ -27,13 +33,16 @@ void check_options(const DecompositionOptions& options, const std::vector<int>& 
   };
   require(!part_counts.empty(), "parts: no level asked for, expected numbers such as 1,2,4,8");
   for (const int count : part_counts)
-    require(count >= 1 && count <= catalog::kMostParts, "parts: " + std::to_string(count) + ", expected 1 to 256");
-  require(options.vertex_cap >= 8 && options.vertex_cap <= 64,
-          "vertices: " + std::to_string(options.vertex_cap) + ", expected 8 to 64");
-  require(options.face_cap == 0 || (options.face_cap >= 8 && options.face_cap <= 124),
-          "faces: " + std::to_string(options.face_cap) + ", expected 8 to 124, or 0 for no cap");
+    require(count >= 1 && count <= catalog::kMostParts,
+            "parts: " + std::to_string(count) + ", " + range_text(1, catalog::kMostParts));
+  require(options.vertex_cap >= kFewestVertices && options.vertex_cap <= kMostVertices,
+          "vertices: " + std::to_string(options.vertex_cap) + ", " + range_text(kFewestVertices, kMostVertices));
+  require(
+      options.face_cap == 0 || (options.face_cap >= kFewestFaces && options.face_cap <= kMostFaces),
+      "faces: " + std::to_string(options.face_cap) + ", " + range_text(kFewestFaces, kMostFaces) + ", or 0 for no cap");
   require(options.time_budget >= 0, "time_budget: expected seconds, or 0 for none");
-  require(options.effort >= 0.1 && options.effort <= kMostEffort, "effort: expected 0.1 to 100");
+  require(options.effort >= kLeastEffort && options.effort <= kMostEffort,
+          "effort: " + range_text(kLeastEffort, kMostEffort));
   require(options.smallest_thickness >= 0 && options.smallest_thickness < 1, "smallest_thickness: expected 0 to 1");
   require(options.smallest_volume >= 0 && options.smallest_volume < 1, "smallest_volume: expected 0 to 1");
 }
@@ -68,27 +77,49 @@ std::string provenance_json(DecompositionOptions asked, const DecompositionOptio
          ",\"most_faces\":" + std::to_string(measured.most_faces) + "}}";
 }
 
-/// Parts that stand for nothing of the mesh are no level of detail: few parts of thin shells, say.
-void refuse_misfit(const catalog::LevelOfDetail& level) {
-  constexpr double kLargestDifference = 1, kLargestVolumeError = 0.05;  // of the mesh's volume
-  const bool is_volume_off =
-      level.key.mode == FitMode::volume_true && std::abs(level.error.volume_error) > kLargestVolumeError;
-  if (level.error.symmetric_difference < kLargestDifference && !is_volume_off) return;
-  char text[256];
-  std::snprintf(
-      text, sizeof text,
-      "mesh: its %d parts differ from it by %.0f %% of its volume, their volume by %.1f %%: so few parts cannot stand "
-      "for it; ask for more parts, thinner ones, more effort or another seed",
-      level.key.parts_asked, 100 * level.error.symmetric_difference, 100 * level.error.volume_error);
-  throw catalog::InputError(text);
+std::string remedy_for_few(int parts, int bodies) {
+  if (parts >= bodies)
+    return "so few parts cannot stand for it; ask for more parts, thinner or smaller ones, more effort or another seed";
+  return "it has " + std::to_string(bodies) + " bodies, which fewer parts cannot stand for; ask for at least " +
+         std::to_string(bodies) + " parts, or keep the largest body alone with --bodies largest";
 }
 
-catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, LevelSearch& search, int parts_asked,
-                                  const DecompositionOptions& options, const DecompositionOptions& asked) {
-  const FoundLevel& found = search.find(parts_asked);
+/// Parts that stand for nothing of the mesh are no level of detail: few parts of thin shells, say.
+void refuse_misfit(const catalog::LevelOfDetail& level, const BodySearch& search) {
+  constexpr double kLargestDifference = 1, kLargestVolumeError = 0.05;  // of the mesh's volume
+  constexpr double kMostMissing = 0.25;  // where parts would have to span bodies that lie apart
+  const bool is_volume_off =
+      level.key.mode == FitMode::volume_true && std::abs(level.error.volume_error) > kLargestVolumeError;
+  const int parts = level.key.parts_asked;
+  const bool loses_bodies = parts < search.heaps() && level.error.missing_volume > kMostMissing;
+  if (level.error.symmetric_difference < kLargestDifference && !is_volume_off && !loses_bodies) return;
+  char text[256];
+  std::snprintf(text, sizeof text, "mesh: its %d %s from it by %.0f %% of its volume, their volume by %.1f %%: ", parts,
+                parts == 1 ? "part differs" : "parts differ", 100 * level.error.symmetric_difference,
+                100 * level.error.volume_error);
+  throw catalog::InputError(text + remedy_for_few(parts, search.bodies()));
+}
+
+/// A level as a search finds it, or its refusal.
+struct MadeLevel {
+  LevelOutcome outcome;
+  bool keeps_rules = false;
+
+  bool is_there() const { return outcome.refusal.empty(); }
+  bool is_better_than(const MadeLevel& other) const {
+    if (is_there() != other.is_there()) return is_there();
+    if (keeps_rules != other.keeps_rules) return keeps_rules;
+    return outcome.level.error.symmetric_difference < other.outcome.level.error.symmetric_difference;
+  }
+};
+
+catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, const BodySearch& search, const FoundLevel& found,
+                                  int parts_asked, const DecompositionOptions& options,
+                                  const DecompositionOptions& asked) {
   if (found.parts.empty())
-    throw catalog::InputError("mesh: no convex parts that are " + mode_name(options.mode) +
-                              " could be fitted to it; ask for more parts, or for thinner or smaller ones");
+    throw catalog::InputError("mesh: no convex parts that are " + mode_name(options.mode) + " could be fitted to it; " +
+                              (parts_asked < search.bodies() ? remedy_for_few(parts_asked, search.bodies())
+                                                             : "ask for more parts, or for thinner or smaller ones"));
   catalog::LevelOfDetail level;
   level.key = {parts_asked, options.vertex_cap, options.face_cap, options.mode};
   catalog::VolumeMoments moments;
@@ -98,52 +129,54 @@ catalog::LevelOfDetail make_level(const ErrorMeasurement& measure, LevelSearch& 
   }
   level.mass_properties = catalog::mass_properties(moments);
   level.error = measure(level.parts);
-  refuse_misfit(level);
+  refuse_misfit(level, search);
   LevelFigures measured = figures(level.parts);
-  measured.ledge_area = found.ledge_area;
+  if (found.coverage.covered_area > 0) measured.ledge_area = found.coverage.ledge_area / found.coverage.covered_area;
   level.provenance.options = provenance_json(asked, options, parts_asked, measured);
   return level;
 }
 
-std::vector<catalog::LevelOfDetail> make_levels(const catalog::TriangleMesh& solid, const ErrorMeasurement& measure,
-                                                const std::vector<int>& part_counts,
-                                                const DecompositionOptions& options,
-                                                const DecompositionOptions& asked) {
-  LevelSearch search(solid, options);
-  std::vector<catalog::LevelOfDetail> levels;
-  for (const int count : part_counts) levels.push_back(make_level(measure, search, count, options, asked));
+std::vector<MadeLevel> make_levels(const catalog::TriangleMesh& solid, const ErrorMeasurement& measure,
+                                   const std::vector<int>& part_counts, const DecompositionOptions& options,
+                                   const DecompositionOptions& asked) {
+  BodySearch search(solid, options);
+  std::vector<MadeLevel> levels;
+  for (const int count : part_counts) {
+    MadeLevel made;
+    const FoundLevel& found = search.find(count);
+    try {
+      made.outcome.level = make_level(measure, search, found, count, options, asked);
+      made.keeps_rules = found.keeps_rules;
+    } catch (const catalog::InputError& refusal) {
+      made.outcome.refusal = refusal.what();
+    }
+    levels.push_back(std::move(made));
+  }
   return levels;
 }
 
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-/// The best levels of whole searches, each of twice the effort of the one before, as many as fit into the time. A
-/// search that finds nothing counts as long as another finds something.
-std::vector<catalog::LevelOfDetail> levels_in_time(const catalog::TriangleMesh& solid, const ErrorMeasurement& measure,
-                                                   const std::vector<int>& part_counts,
-                                                   const DecompositionOptions& asked) {
-  constexpr double kFirstEffort = 0.1, kGrowth = 2;
+/// The best levels of whole searches, each of twice the effort of the one before, as many as fit into the time.
+std::vector<MadeLevel> levels_in_time(const catalog::TriangleMesh& solid, const ErrorMeasurement& measure,
+                                      const std::vector<int>& part_counts, const DecompositionOptions& asked) {
+  constexpr double kGrowth = 2;
   DecompositionOptions options = asked;
   const double begin = cpu_seconds();
-  std::vector<catalog::LevelOfDetail> best;
-  std::exception_ptr refusal;
-  options.effort = kFirstEffort;
+  std::vector<MadeLevel> best;
+  options.effort = kLeastEffort;
   for (std::uint64_t round = 0;; ++round) {
     const double round_begin = cpu_seconds();
     options.seed = round == 0 ? asked.seed : sub_seed(asked.seed, round);
-    try {
-      std::vector<catalog::LevelOfDetail> found = make_levels(solid, measure, part_counts, options, asked);
-      if (best.empty()) best = found;
-      for (std::size_t k = 0; k < found.size(); ++k)
-        if (found[k].error.symmetric_difference < best[k].error.symmetric_difference) best[k] = std::move(found[k]);
-    } catch (const catalog::InputError&) {
-      refusal = std::current_exception();
-    }
-    options.effort *= kGrowth;
-    const double now = cpu_seconds(), next = kGrowth * (now - round_begin);
-    if (now - begin + next > options.time_budget || options.effort > kMostEffort) break;
+    std::vector<MadeLevel> made = make_levels(solid, measure, part_counts, options, asked);
+    if (best.empty()) best = made;
+    for (std::size_t k = 0; k < made.size(); ++k)
+      if (made[k].is_better_than(best[k])) best[k] = std::move(made[k]);
+    const double next_effort = std::fmin(kGrowth * options.effort, kMostEffort);
+    const double now = cpu_seconds(), next = next_effort / options.effort * (now - round_begin);
+    if (now - begin + next > asked.time_budget || options.effort == kMostEffort) break;
+    options.effort = next_effort;
   }
-  if (best.empty()) std::rethrow_exception(refusal);
   return best;
 }
 
@@ -171,19 +204,31 @@ void measure_slivers(const catalog::ConvexPart& part, LevelFigures& result) {
 
 }  // namespace
 
-std::vector<catalog::LevelOfDetail> decompose_ladder(const catalog::TriangleMesh& mesh,
-                                                     const std::vector<int>& part_counts,
-                                                     const DecompositionOptions& options) {
+std::vector<LevelOutcome> decompose_levels(const catalog::TriangleMesh& mesh, const std::vector<int>& part_counts,
+                                           const DecompositionOptions& options) {
   check_options(options, part_counts);
   const SolidSurface surface = solid_surface(mesh, options.bodies);
   const catalog::TriangleMesh& solid = surface.cleaned ? *surface.cleaned : mesh;
   const ErrorMeasurement measure(solid);
-  std::vector<catalog::LevelOfDetail> levels = options.time_budget > 0
-                                                   ? levels_in_time(solid, measure, part_counts, options)
-                                                   : make_levels(solid, measure, part_counts, options, options);
-  for (catalog::LevelOfDetail& level : levels) {
-    level.provenance.options.back() = ',';
-    level.provenance.options += "\"mesh\":" + surface.notes.json() + "}";
+  std::vector<LevelOutcome> outcomes;
+  for (MadeLevel& made : options.time_budget > 0 ? levels_in_time(solid, measure, part_counts, options)
+                                                 : make_levels(solid, measure, part_counts, options, options)) {
+    if (made.is_there()) {
+      made.outcome.level.provenance.options.back() = ',';
+      made.outcome.level.provenance.options += "\"mesh\":" + surface.notes.json() + "}";
+    }
+    outcomes.push_back(std::move(made.outcome));
+  }
+  return outcomes;
+}
+
+std::vector<catalog::LevelOfDetail> decompose_ladder(const catalog::TriangleMesh& mesh,
+                                                     const std::vector<int>& part_counts,
+                                                     const DecompositionOptions& options) {
+  std::vector<catalog::LevelOfDetail> levels;
+  for (LevelOutcome& outcome : decompose_levels(mesh, part_counts, options)) {
+    if (!outcome.refusal.empty()) throw catalog::InputError(outcome.refusal);
+    levels.push_back(std::move(outcome.level));
   }
   return levels;
 }

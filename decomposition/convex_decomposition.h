@@ -19,6 +19,8 @@ enum class SeparateBodies {
   refuse
 };
 
+inline constexpr double kLeastEffort = 0.1, kMostEffort = 100;
+
 struct DecompositionOptions {
   int parts = 8;        // at most; fewer where more would not help or would make slivers
   int vertex_cap = 32;  // of each part, 8 to 64
@@ -28,10 +30,11 @@ struct DecompositionOptions {
   std::uint64_t seed = 1;  // same mesh, options and seed: same bytes, whatever `threads` is
   double effort = 1;       // scales the number of cuts and fits tried, 0.1 to 100; time grows in proportion
   // CPU time [s] for all levels together: instead of one search of `effort`, whole searches of growing effort, as many
-  // as fit into it, at least one, of which each level keeps the best; so more time never gives a worse level. How many
-  // fit depends on the machine. 0: none.
+  // as fit into it, at least one, up to the greatest effort, of which each level keeps the best: one that keeps the
+  // rules on edges and faces, then the one of least error; so more time never gives a worse level. How many fit depends
+  // on the machine. 0: none.
   double time_budget = 0;
-  double smallest_thickness = 0.1;  // of a part / thickness of the whole
+  double smallest_thickness = 0.1;  // of a part / thickness of the whole, of several bodies of the thickest
   double smallest_volume = 0.01;    // of a part / volume of the whole
   int threads = 0;                  // 0: as many as the machine has
 };
@@ -69,16 +72,30 @@ struct LevelFigures {
 /// that the search finds; pieces beside exact ones, and those of shells whose sections are no convex polygons, are
 /// fitted one by one, each to its own volume, with their cuts' ledges, and scaled together to the mesh's. The error is
 /// measured (measure_error). The mesh must be closed; it may have handles, cavities (hollows closed off from outside,
-/// which stay hollow) and several bodies (`bodies`). Surfaces that lie wholly in the rock, so that they would count it
-/// twice, are left out. Surfaces that cut one another are refused if that puts more than 0.1 % of the volume in doubt.
-/// Provenance: `options` holds the options, the LevelFigures and what was found in the mesh as JSON,
+/// which stay hollow) and several bodies (`bodies`). Bodies apart are divided one by one, as well as each would be
+/// alone: all have a part (but those too small for one), further parts go where they gain most; bodies whose parts
+/// would meet are divided together. Fewer parts than bodies span some, or are refused where more than a quarter of the
+/// volume would be missing. Surfaces that lie wholly in the rock, so that they would count it twice, are left out.
+/// Surfaces that cut one another are refused if that puts more than 0.1 % of the volume in doubt. Provenance: `options`
+/// holds the options, the LevelFigures and what was found in the mesh as JSON,
 /// {"options": {...}, "search": {"seed", "effort"}, "measured": {...}, "mesh": {...}}; the caller fills in the rest.
 /// Throws catalog::InputError for a mesh that bounds no solid, for options out of range, where no part keeps the bound,
 /// and where the parts miss the mesh: by all its volume, or volume-true by 5 % of it (few parts of thin shells).
 catalog::LevelOfDetail decompose(const catalog::TriangleMesh& mesh, const DecompositionOptions& options = {});
 
-/// Several levels at once, sharing one search. `options.parts` is not used. Each level is the same as decompose() would
-/// give for it alone (without a time budget); the cuts move from level to level, so levels are not nested.
+/// A level, or why there is none.
+struct LevelOutcome {
+  catalog::LevelOfDetail level;
+  std::string refusal;  // empty: the level is there
+};
+
+/// Several levels at once, sharing one search, in the order asked for. `options.parts` is not used. Each level is the
+/// same as decompose() would give for it alone (without a time budget); the cuts move from level to level, so levels
+/// are not nested. One that cannot be made says why; throws as decompose() for what no number of parts would change.
+std::vector<LevelOutcome> decompose_levels(const catalog::TriangleMesh& mesh, const std::vector<int>& part_counts,
+                                           const DecompositionOptions& options = {});
+
+/// The same where all are needed: throws InputError where one cannot be made.
 std::vector<catalog::LevelOfDetail> decompose_ladder(const catalog::TriangleMesh& mesh,
                                                      const std::vector<int>& part_counts,
                                                      const DecompositionOptions& options = {});

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "catalog/input_error.h"
 #include "catalog/nearest_word.h"
@@ -47,6 +49,19 @@ struct Options {
   bool resumes = false;  // with the cases that are kept
 };
 
+/// Refuses options that the bench would pass over.
+void refuse_options_of_others(const CLI::App& app, const std::string& name) {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> users{
+      {"--catalog", {"levels", "parts"}}, {"--scans", {"decomposition"}}, {"--seeds", {"decomposition"}}};
+  const std::string& bench = bench_named(name).name;
+  for (const auto& [option, benches] : users) {
+    if (app.count(option) == 0 || std::find(benches.begin(), benches.end(), bench) != benches.end()) continue;
+    std::string names;
+    for (const std::string& user : benches) names += (names.empty() ? "" : " and ") + user;
+    throw catalog::UsageError(option + " is for the bench " + names + ", not for '" + bench + "'; leave it out");
+  }
+}
+
 /// The options; or, where the command line ends here (--help, or an error), the exit status.
 std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
   Options options;
@@ -59,9 +74,7 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
                   "thread counts to compare, such as 1,2; default: the engine's own choice");
   app.add_option("--catalog", options.catalogue, "shape catalogue, for the benches levels and parts");
   app.add_option("--scans", options.scans, "folder of scans, for the benches decomposition and micrographs");
-  app.add_option("--seeds", options.seeds, "searches of each level, for the bench decomposition")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  add_whole_number(app, "--seeds", options.seeds, {1, 1000}, "searches of each level, for the bench decomposition");
   app.add_flag("--resume", options.resumes, "measure only the cases that an earlier run with this --json has not");
   app.add_flag("--list", options.is_list, "name the benches and their cases");
   app.set_version_flag("--version", tool_version());
@@ -72,6 +85,7 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
   }
   if (!options.is_list && options.bench.empty())
     throw catalog::UsageError("no NAME; talus bench --list names the benches");
+  if (!options.is_list) refuse_options_of_others(app, options.bench);
   if (!options.json.empty() && options.out.empty()) options.out = fs::absolute(options.json).parent_path();
   if (options.json.empty() && !options.out.empty()) options.json = options.out / (options.bench + ".json");
   if (options.resumes && options.json.empty())
@@ -130,7 +144,10 @@ fs::path case_file(const Options& options, const BenchCase& bench_case) {
 /// What a case that is kept must have been measured with.
 std::string made_with(const Options& options, const BenchCase& bench_case) {
   std::string text = tool_version() + ": " + command_of(options, bench_case);
-  if (!options.catalogue.empty()) text += ", catalogue " + catalog::sha256_of_file(options.catalogue);
+  if (!bench_case.inputs.empty())
+    text += ", " + bench_case.inputs;
+  else if (!options.catalogue.empty())
+    text += ", catalogue " + catalog::sha256_of_file(options.catalogue);
   if (!options.scans.empty()) text += ", scans in " + fs::absolute(options.scans).lexically_normal().string();
   return text;
 }

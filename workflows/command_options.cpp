@@ -62,6 +62,16 @@ void add_number_list(CLI::App& app, const std::string& name, std::vector<int>& n
   if (!numbers.empty()) option->default_str(joined(numbers));
 }
 
+void add_whole_number(CLI::App& app, const std::string& name, int& number, WholeRange range, const std::string& help) {
+  const auto read = [&number, name, range](const std::string& text) {
+    const std::optional<int> found = whole_number<int>(text);
+    if (!found || *found < range.least || *found > range.most)
+      refuse(name, "a whole number from " + std::to_string(range.least) + " to " + std::to_string(range.most), text);
+    number = *found;
+  };
+  app.add_option_function<std::string>(name, read, help)->type_name("N")->default_str(std::to_string(number));
+}
+
 void add_seed(CLI::App& app, const std::string& name, std::uint64_t& seed, const std::string& help) {
   const auto read = [&seed, name](const std::string& text) {
     const std::optional<std::uint64_t> number = whole_number<std::uint64_t>(text);

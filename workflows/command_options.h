@@ -26,6 +26,9 @@ struct WholeRange {
 void add_number_list(CLI::App& app, const std::string& name, std::vector<int>& numbers, WholeRange range,
                      const std::string& help);
 
+/// A whole number in a range.
+void add_whole_number(CLI::App& app, const std::string& name, int& number, WholeRange range, const std::string& help);
+
 /// A whole number from 0 to 2^64 - 1.
 void add_seed(CLI::App& app, const std::string& name, std::uint64_t& seed, const std::string& help);
 

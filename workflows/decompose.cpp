@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // talus-decompose: convex parts at several levels of detail for the shapes of a catalogue.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -25,6 +26,7 @@ struct CommandLine {
   std::string into, unit;  // of scans
   std::optional<int> genus;
   DecomposeBatchOptions batch;
+  std::optional<double> effort;
   bool json = false;
 };
 
@@ -34,6 +36,17 @@ CLI::Validator finite_number() {
       [](const std::string& text) {
         double value = 0;
         return CLI::detail::lexical_cast(text, value) && std::isfinite(value) ? std::string() : text + " is no number";
+      },
+      "");
+}
+
+CLI::Validator share() {
+  return CLI::Validator(
+      [](const std::string& text) {
+        double value = 0;
+        return CLI::detail::lexical_cast(text, value) && value >= 0 && value < 1
+                   ? std::string()
+                   : "expected a share from 0 to below 1, found '" + text + "'";
       },
       "");
 }
@@ -83,13 +96,21 @@ void declare_options(CLI::App& app, CommandLine& line) {
       "of a mesh of several bodies: join (if not given) them in one grain, keep the largest, or refuse");
   app.add_option(
          "--time-budget", quality.time_budget,
-         "CPU seconds a shape: searches of growing effort, the best kept, so that more time is never worse; how many "
-         "depends on the machine; 0: one search of --effort")
+         "CPU seconds a shape, shared by its caps of vertices: searches of growing effort, the best kept, so that more "
+         "time is never worse; how many depends on the machine; 0 (if not given): one search of --effort")
       ->check(finite_number() & CLI::Range(0.0, 1e6));
-  add_seed(app, "--seed", quality.seed, "of the random numbers; the same seed gives the same bytes");
-  app.add_option("--effort", quality.effort, "more looks for better cuts, time in proportion")
-      ->check(finite_number() & CLI::Range(0.1, 100.0))
+  app.add_option("--smallest-thickness", quality.smallest_thickness,
+                 "of a part, as a share of that of the shape (of several bodies the thickest); from 0 to below 1")
+      ->check(share())
       ->capture_default_str();
+  app.add_option("--smallest-volume", quality.smallest_volume,
+                 "of a part, as a share of that of the shape; from 0 to below 1")
+      ->check(share())
+      ->capture_default_str();
+  add_seed(app, "--seed", quality.seed, "of the random numbers; the same seed gives the same bytes");
+  app.add_option("--effort", line.effort, "more looks for better cuts, time in proportion; not with --time-budget")
+      ->check(finite_number() & CLI::Range(decomposition::kLeastEffort, decomposition::kMostEffort))
+      ->default_str("1");
   app.add_option("--threads", quality.threads, "0: as many as the machine has")->check(CLI::Range(0, 1024));
   app.add_option("--select", line.batch.select, "only the shapes of this query, see talus catalog query --help");
   app.add_flag("--json", line.json, "one JSON object instead of a table; ratios, not per cent");
@@ -114,7 +135,7 @@ Scans digitized(const CommandLine& line) {
   Scans scans;
   for (const DigitizedScan& outcome : batch.outcomes())
     if (outcome.is_bad())
-      scans.failures.push_back({outcome.name, outcome.reason});
+      scans.failures.push_back({outcome.name, outcome.reason, std::nullopt});
     else
       scans.names.push_back(outcome.name);
   scans.failed_checks = failed_checks_text(batch.outcomes());
@@ -126,12 +147,23 @@ Scans digitized(const CommandLine&) {
 }
 #endif
 
+/// By its ending, also where this build reads no scans.
+bool looks_like_a_scan(const std::filesystem::path& path) {
+  const std::string ending = path.extension().string();
+  const std::vector<std::string> endings{".stl", ".obj", ".off", ".ply", ".tab", ".pcd", ".xyz", ".pwn"};
+  return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
 /// A catalogue that is there; opening for writing would make a new one.
 catalog::ShapeCatalog open_existing(const std::string& path) {
   if (std::filesystem::is_directory(path))
     throw catalog::InputError(path +
                               ": is a folder, expected a catalogue; to decompose the scans in it say where the "
                               "shapes go and in which unit they are: --into ore.talus --unit mm");
+  if (looks_like_a_scan(path))
+    throw catalog::InputError(path + ": has the ending of a scan, expected a catalogue; make one with talus digitize " +
+                              path +
+                              " --unit mm --into ore.talus, or decompose it at once: add --into ore.talus --unit mm");
   if (!std::filesystem::exists(path))
     throw catalog::InputError(path + ": no such catalogue; make one with talus digitize ... --into " + path);
   if (std::filesystem::is_regular_file(path) && std::filesystem::file_size(path) == 0)
@@ -140,8 +172,10 @@ catalog::ShapeCatalog open_existing(const std::string& path) {
   return {path, catalog::ShapeCatalog::Access::read_write};
 }
 
-/// Options that fit one way of naming the input only.
+/// Options that exclude one another, or fit one way of naming the input only.
 void check_inputs(const CommandLine& line) {
+  if (line.effort && line.batch.quality.time_budget > 0)
+    throw catalog::UsageError("--effort and --time-budget: a time budget finds the effort by itself; give one of them");
   if (line.into.empty() && line.inputs.size() != 1)
     throw catalog::UsageError(std::to_string(line.inputs.size()) +
                               " inputs, expected one catalogue; scans need --into ore.talus");
@@ -164,6 +198,7 @@ DecomposeBatchResult decompose_with_progress(const DecomposeBatchOptions& option
 
 int decompose_all(CommandLine line) {
   check_inputs(line);
+  if (line.effort) line.batch.quality.effort = *line.effort;
   DecomposeBatchResult result;
   std::string failed_checks;
   if (line.into.empty()) {
@@ -181,7 +216,7 @@ int decompose_all(CommandLine line) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0)
     throw std::runtime_error("stdout cannot be written");
   for (const auto& failure : result.failures)
-    std::fprintf(stderr, "talus decompose: %s: not decomposed: %s\n", failure.shape.c_str(), failure.reason.c_str());
+    std::fprintf(stderr, "talus decompose: %s\n", failure_text(failure).c_str());
   if (!failed_checks.empty()) std::fprintf(stderr, "talus decompose: %s", failed_checks.c_str());
   if (!result.failures.empty()) return kBadInput;
   return failed_checks.empty() ? kDone : kCheckNotPassed;
@@ -195,7 +230,8 @@ int main(int argc, char** argv) {
       "Example: talus decompose ore.talus --parts 1,2,4,8 --vertices 32\n         talus decompose scans/ --into "
       "ore.talus "
       "--unit mm\nDivides every shape that lacks these levels into convex parts and prints their measured errors. A "
-      "scan or shape that cannot be used is listed at the end, with its reason; the exit status is then 3, else 4 if a "
+      "scan, shape or level that cannot be used or made is listed at the end, with its reason; the exit status is then "
+      "3, else 4 if a "
       "shape that was digitised has a check that did not pass.");
   declare_options(app, line);
   try {

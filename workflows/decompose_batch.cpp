@@ -62,7 +62,13 @@ struct ShapeWork {
   catalog::ShapeId id = 0;
   std::string name, hash;
   std::size_t face_count = 0;
-  std::vector<DecomposedLevel> levels;  // cap by cap, in the order asked for; new ones are still empty
+  std::vector<DecomposedLevel> levels;                 // cap by cap, in the order asked for; new ones are still empty
+  std::vector<DecomposeBatchResult::Failure> refused;  // of the new ones
+
+  bool is_refused(const DecomposedLevel& level) const {
+    return std::any_of(refused.begin(), refused.end(),
+                       [&](const auto& failure) { return *failure.level == level.level.key; });
+  }
 
   bool lacks_levels() const {
     return std::any_of(levels.begin(), levels.end(), [](const DecomposedLevel& level) { return level.is_new; });
@@ -72,17 +78,17 @@ struct ShapeWork {
 decomposition::DecompositionOptions with_cap(const DecomposeBatchOptions& options, int vertex_cap) {
   decomposition::DecompositionOptions quality = options.quality;
   quality.vertex_cap = vertex_cap;
+  quality.time_budget /= static_cast<double>(options.vertex_caps.size());
   return quality;
 }
 
 ShapeWork work_of(const catalog::ShapeCatalog& shapes, catalog::ShapeId id, const DecomposeBatchOptions& options) {
   const catalog::ShapeRecord shape = shapes.shape(id);
-  ShapeWork work{id, shape.name, mesh_hash(shape.mesh), shape.mesh.face_count(), {}};
+  ShapeWork work{id, shape.name, mesh_hash(shape.mesh), shape.mesh.face_count(), {}, {}};
   for (const int cap : options.vertex_caps)
     for (const int parts : options.part_counts) {
       DecomposedLevel level{shape.name, {}, true, 0};
-      level.level.key.parts_asked = parts;
-      level.level.key.vertex_cap = cap;
+      level.level.key = {parts, cap, options.quality.face_cap, options.quality.mode};
       if (auto kept = kept_level(shapes, id, work.hash, with_cap(options, cap), parts)) {
         level.level = std::move(*kept);
         level.is_new = false;
@@ -92,7 +98,7 @@ ShapeWork work_of(const catalog::ShapeCatalog& shapes, catalog::ShapeId id, cons
   return work;
 }
 
-/// Fills in the levels that the shape lacks, a ladder for each cap.
+/// Fills in the levels that the shape lacks, a ladder for each cap, but for those that are refused.
 void make_levels(const catalog::TriangleMesh& mesh, const DecomposeBatchOptions& options, int threads,
                  ShapeWork& work) {
   for (const int cap : options.vertex_caps) {
@@ -107,13 +113,18 @@ void make_levels(const catalog::TriangleMesh& mesh, const DecomposeBatchOptions&
     decomposition::DecompositionOptions quality = with_cap(options, cap);
     quality.threads = threads;
     const auto start = std::chrono::steady_clock::now();
-    std::vector<LevelOfDetail> made = decomposition::decompose_ladder(mesh, part_counts, quality);
+    std::vector<decomposition::LevelOutcome> made = decomposition::decompose_levels(mesh, part_counts, quality);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     for (std::size_t k = 0; k < made.size(); ++k) {
-      made[k].provenance.source_file = work.name;
-      made[k].provenance.source_sha256 = work.hash;
-      made[k].provenance.tool_version = tool_version();
-      missing[k]->level = std::move(made[k]);
+      if (!made[k].refusal.empty()) {
+        work.refused.push_back({work.name, made[k].refusal, missing[k]->level.key});
+        continue;
+      }
+      LevelOfDetail& level = made[k].level;
+      level.provenance.source_file = work.name;
+      level.provenance.source_sha256 = work.hash;
+      level.provenance.tool_version = tool_version();
+      missing[k]->level = std::move(level);
       missing[k]->seconds = seconds;
     }
   }
@@ -185,10 +196,12 @@ DecomposeBatchResult decompose_shapes(catalog::ShapeCatalog& shapes, const Decom
   batch.take = [&](int k, std::string&& reason) {
     ShapeWork& work = *lacking[static_cast<std::size_t>(k)];
     if (!reason.empty()) {
-      result.failures.push_back({work.name, reason});
+      result.failures.push_back({work.name, reason, std::nullopt});
       std::erase_if(work.levels, [](const DecomposedLevel& level) { return level.is_new; });
       return;
     }
+    std::erase_if(work.levels, [&](const DecomposedLevel& level) { return work.is_refused(level); });
+    std::move(work.refused.begin(), work.refused.end(), std::back_inserter(result.failures));
     std::vector<LevelOfDetail> made;
     for (const DecomposedLevel& level : work.levels)
       if (level.is_new) made.push_back(level.level);
@@ -227,6 +240,13 @@ std::string batch_text(const DecomposeBatchResult& result) {
   return text;
 }
 
+std::string failure_text(const DecomposeBatchResult::Failure& failure) {
+  if (!failure.level) return failure.shape + ": not decomposed: " + failure.reason;
+  const int parts = failure.level->parts_asked;
+  return failure.shape + ": " + std::to_string(parts) + (parts == 1 ? " part of " : " parts of ") +
+         std::to_string(failure.level->vertex_cap) + " vertices: not made: " + failure.reason;
+}
+
 std::string batch_json(const DecomposeBatchResult& result) {
   Json levels = Json::array(), failures = Json::array();
   for (const DecomposedLevel& row : result.levels) {
@@ -244,8 +264,12 @@ std::string batch_json(const DecomposeBatchResult& result) {
     level["seconds"] = row.seconds;
     levels.push_back(std::move(level));
   }
-  for (const auto& failure : result.failures)
+  for (const auto& failure : result.failures) {
     failures.push_back({{"shape", failure.shape}, {"reason", failure.reason}});
+    if (!failure.level) continue;
+    failures.back()["parts_asked"] = failure.level->parts_asked;
+    failures.back()["vertex_cap"] = failure.level->vertex_cap;
+  }
   return Json{{"format", kJsonFormat}, {"levels", levels}, {"failures", failures}}.dump(2) + "\n";
 }
 

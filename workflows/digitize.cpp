@@ -87,9 +87,8 @@ void declare_micrograph_options(CLI::App& app, MicrographSettings& micrograph) {
       ->check(CLI::Range(3.0, 10000.0))
       ->capture_default_str();
   app.add_option("--out", micrograph.out, "folder for tables of a micrograph; else CATALOGUE_outlines");
-  app.add_option("--population", micrograph.population, "solids made to look like a micrograph's grains; 0: none")
-      ->check(CLI::Range(0, 100000))
-      ->capture_default_str();
+  add_whole_number(app, "--population", micrograph.population, {0, 100000},
+                   "solids made to look like a micrograph's grains; 0: none");
   app.add_option("--third-axis", micrograph.third_axis,
                  "S/I of these solids, which no micrograph shows: drawn (like I/L) or a ratio")
       ->capture_default_str();
@@ -174,7 +173,7 @@ int make_virtual_scans(const CommandLine& line) {
   set.flaws.gap_angle = *parse_quantity(std::to_string(line.gap_degrees) + " deg", Dimension::angle);
   const std::optional<double> noise = parse_quantity(line.noise, Dimension::length);
   if (!noise || !(*noise >= 0))
-    throw catalog::InputError("--noise: expected a length such as '0.03 mm', found '" + line.noise + "'");
+    throw catalog::UsageError("--noise: expected a length such as '0.03 mm', found '" + line.noise + "'");
   set.flaws.noise_sigma = *noise;
   for (const fs::path& file : shape_pipeline::write_virtual_scans(line.virtual_scan_folder, set))
     std::printf("%s\n", file.string().c_str());

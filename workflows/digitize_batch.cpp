@@ -27,11 +27,11 @@ using shape_pipeline::ScanTruth;
 
 DigitizationOptions digitization_options(const ScanSettings& settings) {
   if (settings.unit.empty())
-    throw catalog::InputError("--unit: scans carry no unit and none is guessed; state it, such as --unit mm (one of " +
+    throw catalog::UsageError("--unit: scans carry no unit and none is guessed; state it, such as --unit mm (one of " +
                               accepted_units(Dimension::length) + ")");
   const std::optional<double> unit = length_unit(settings.unit);
   if (!unit)
-    throw catalog::InputError("--unit: expected one of " + accepted_units(Dimension::length) + ", found '" +
+    throw catalog::UsageError("--unit: expected one of " + accepted_units(Dimension::length) + ", found '" +
                               settings.unit + "'; state the unit of the scans' coordinates");
   DigitizationOptions options;
   options.metres_per_unit = *unit;
@@ -46,7 +46,7 @@ DigitizationOptions digitization_options(const ScanSettings& settings) {
     constexpr double kSmallest = 1e-12,
                      kLargest = 1e12;  // [m], as of scans: beyond, moments leave the range of numbers
     if (!options.sieve_size || !(*options.sieve_size >= kSmallest && *options.sieve_size <= kLargest))
-      throw catalog::InputError("--size: expected a length from 1e-12 to 1e12 m such as '30 mm', found '" +
+      throw catalog::UsageError("--size: expected a length from 1e-12 to 1e12 m such as '30 mm', found '" +
                                 settings.size + "'");
   }
   return options;
@@ -85,6 +85,17 @@ std::vector<std::string> shape_names(const std::vector<fs::path>& scans, const s
     names.push_back(name);
   }
   return names;
+}
+
+/// The scans without those that are named again, by whatever path; these go to `repeated`. A link is a name of its own.
+std::vector<fs::path> each_once(const std::vector<fs::path>& scans, std::vector<fs::path>& repeated) {
+  std::set<fs::path> known;
+  std::vector<fs::path> result;
+  for (const fs::path& scan : scans) {
+    const fs::path place = fs::weakly_canonical(fs::absolute(scan).parent_path()) / scan.filename();
+    (known.insert(place).second ? result : repeated).push_back(scan);
+  }
+  return result;
 }
 
 /// A file that is there but may not be looked at is not missing.
@@ -135,7 +146,7 @@ catalog::ShapeCatalog open_catalog(const fs::path& path) {
 DigitizeBatch::DigitizeBatch(const DigitizeBatchOptions& options)
     : options_(options),
       digitization_(digitization_options(options.settings)),
-      scans_(shape_pipeline::scan_files(options.inputs)),
+      scans_(each_once(shape_pipeline::scan_files(options.inputs), repeated_)),
       names_(shape_names(scans_, options.name)),
       progress_("digitize", static_cast<int>(scans_.size())) {
   if (!options.truth_path.empty()) truths_ = shape_pipeline::read_truth(options.truth_path);
@@ -154,6 +165,7 @@ void DigitizeBatch::run() {
   work.take = [&](int s, Prepared&& prepared) {
     outcomes_.push_back(stored(static_cast<std::size_t>(s), std::move(prepared)));
   };
+  for (const fs::path& scan : repeated_) progress_.note(scan.string() + ": is given more than once; taken once");
   run_in_order(work);
   progress_.finish();
 }

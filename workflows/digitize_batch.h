@@ -40,9 +40,9 @@ struct DigitizedScan {
 catalog::ShapeCatalog open_catalog(const std::filesystem::path& path);
 
 /// Scans into a catalogue, one after the other. A scan that is there from the same bytes with the same options is
-/// skipped; a bad one is kept as rejected with its reason, and the batch goes on. The constructor throws
-/// catalog::InputError or UsageError for options that fit no batch, and for a catalogue that cannot be opened; run()
-/// where it cannot be written.
+/// skipped, one named twice is taken once with a notice; a bad one is kept as rejected with its reason, and the batch
+/// goes on. The constructor throws catalog::InputError or UsageError for options that fit no batch, and for a catalogue
+/// that cannot be opened; run() where it cannot be written.
 class DigitizeBatch {
  public:
   explicit DigitizeBatch(const DigitizeBatchOptions& options);
@@ -63,7 +63,7 @@ class DigitizeBatch {
 
   DigitizeBatchOptions options_;
   shape_pipeline::DigitizationOptions digitization_;
-  std::vector<std::filesystem::path> scans_;
+  std::vector<std::filesystem::path> repeated_, scans_;  // named again, and each once
   std::vector<std::string> names_;
   std::optional<catalog::ShapeCatalog> catalog_;  // none if every scan is missing
   BatchProgress progress_;

@@ -78,7 +78,7 @@ catalog::ShapeCatalog catalogue_to_fill(const std::filesystem::path& path) {
 double positive_length(const std::string& option, const std::string& text) {
   const std::optional<double> length = parse_quantity(text, Dimension::length);
   if (!length || !(*length > 0))
-    throw catalog::InputError(option + ": expected a length above 0 such as '12 mm', found '" + text + "'");
+    throw catalog::UsageError(option + ": expected a length above 0 such as '12 mm', found '" + text + "'");
   return *length;
 }
 

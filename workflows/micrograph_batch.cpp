@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
@@ -29,7 +30,7 @@ double length_of(const std::string& option, const std::string& text, const char*
   if (text.empty()) return 0;
   const std::optional<double> length = parse_quantity(text, Dimension::length);
   if (!length || !(*length > 0))
-    throw catalog::InputError(option + ": expected a length above 0 such as '" + example + "', found '" + text + "'");
+    throw catalog::UsageError(option + ": expected a length above 0 such as '" + example + "', found '" + text + "'");
   return *length;
 }
 
@@ -39,11 +40,11 @@ double third_axis_of(const std::string& text) {
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, ratio);
   if (error != std::errc{} || rest != end || !(ratio > 0 && ratio <= 1))
-    throw catalog::InputError("--third-axis: expected 'drawn', or S/I above 0 and at most 1, found '" + text + "'");
+    throw catalog::UsageError("--third-axis: expected 'drawn', or S/I above 0 and at most 1, found '" + text + "'");
   return ratio;
 }
 
-/// The images meant: files as given, of folders those with an image's ending, by name.
+/// The images meant, each once: files as given, of folders those with an image's ending, by name.
 std::vector<fs::path> image_files(const std::vector<fs::path>& inputs) {
   std::vector<fs::path> images;
   for (const fs::path& input : inputs) {
@@ -60,12 +61,17 @@ std::vector<fs::path> image_files(const std::vector<fs::path>& inputs) {
     if (found.empty()) throw catalog::InputError(input.string() + ": no images (PNG, JPEG, BMP, TIFF) in this folder");
     images.insert(images.end(), found.begin(), found.end());
   }
-  std::set<std::string> stems;
-  for (const fs::path& image : images)
-    if (!stems.insert(image.stem().string()).second)
-      throw catalog::InputError(image.string() + ": another image of this batch is also named '" +
-                                image.stem().string() + "'; digitise it by itself");
-  return images;
+  std::map<std::string, fs::path> stems;
+  std::vector<fs::path> once;
+  for (const fs::path& image : images) {
+    const auto [known, is_new] = stems.emplace(image.stem().string(), fs::weakly_canonical(image));
+    if (is_new)
+      once.push_back(image);
+    else if (known->second != fs::weakly_canonical(image))
+      throw catalog::InputError(image.string() + ": another image of this batch is also named '" + known->first +
+                                "'; digitise it by itself");
+  }
+  return once;
 }
 
 void require_no_scan_options(const DigitizeBatchOptions& batch) {

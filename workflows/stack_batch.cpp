@@ -32,7 +32,7 @@ std::array<double, 3> voxel_size(const std::string& text) {
   }
   const auto is_good = [](double side) { return side > 0 && std::isfinite(side); };
   if ((sides.size() != 1 && sides.size() != 3) || !std::all_of(sides.begin(), sides.end(), is_good))
-    throw catalog::InputError(
+    throw catalog::UsageError(
         "--voxel: expected a length above 0 such as '12 um', or three such as '12 um, 12 um, 20 um', "
         "found '" +
         text + "'");
@@ -52,7 +52,7 @@ StackOptions stack_options(const DigitizeBatchOptions& batch, const StackSetting
     const char* const end = settings.threshold.data() + settings.threshold.size();
     const auto [rest, error] = std::from_chars(settings.threshold.data(), end, value);
     if (error != std::errc{} || rest != end || !std::isfinite(value))
-      throw catalog::InputError("--threshold: expected a grey value of the file, found '" + settings.threshold + "'");
+      throw catalog::UsageError("--threshold: expected a grey value of the file, found '" + settings.threshold + "'");
     options.threshold = value;
   }
   options.denoising = settings.denoise == "median" ? StackDenoising::median

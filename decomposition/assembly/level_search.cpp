@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "catalog/mass_properties.h"
-#include "decomposition/assembly/face_kinds.h"
 #include "decomposition/fit/column_measure.h"
+#include "decomposition/fit/joint_misfit.h"
 #include "decomposition/fit/part_finish.h"
 #include "decomposition/fit/partition_finish.h"
 #include "decomposition/geometry/parallel_for.h"
@@ -29,6 +29,8 @@ constexpr double kVolumeAgreement = 2e-4;  // ... to this share
 constexpr double kLeastFactor = 0.8, kMostFactor = 1.25;  // of the volume asked of parts fitted alone
 // Share of the volume: inscribed parts with more void have lost the solid, so that none of its surface is in them.
 constexpr double kLargestVoid = 0.005;
+// What a cap of V vertices costs n enclosing parts of a ball: kCapCost / V / n^(2/3) of its volume, about.
+constexpr double kCapCost = 2.2;
 constexpr double kExactSnap = 1e-9;  // of the size: fitted points touch their cut planes already
 
 Vec3 middle_of(const std::vector<std::vector<Vec3>>& parts) {
@@ -56,6 +58,12 @@ double volume_of(const std::vector<BuiltPart>& parts) {
   double volume = 0;
   for (const BuiltPart& part : parts) volume += figures({part.part}).smallest_volume;
   return volume;
+}
+
+/// What the parts of a bound leave between them and a mesh of that volume [m3]; infinite if there are none.
+double bound_gap(const FoundLevel& level, double volume) {
+  if (level.parts.empty()) return std::numeric_limits<double>::infinity();
+  return std::abs(volume_of(level.parts) - volume);
 }
 
 /// The parts moved by a map of points and planes and built anew; none if one collapses.
@@ -86,6 +94,12 @@ struct Scaling {
 };
 
 }  // namespace
+
+int fewer_parts(int parts) { return static_cast<int>(std::bit_floor(static_cast<unsigned>(parts - 1))); }
+
+FoundLevel nearer_to_bound(FoundLevel level, const FoundLevel& other, double volume) {
+  return level.parts.empty() || bound_gap(other, volume) < bound_gap(level, volume) ? other : level;
+}
 
 std::vector<BuiltPart> LevelSearch::in_frame_of_mesh(std::vector<BuiltPart> parts) const {
   if (frame_.is_identity()) return parts;
@@ -153,7 +167,7 @@ std::vector<BuiltPart> LevelSearch::built(const Partition& partition) const {
   return parts;
 }
 
-std::vector<BuiltPart> LevelSearch::found_jointly(int count) {
+LevelSearch::Finish LevelSearch::found_jointly(int count) {
   const std::vector<TreeRace::Start>& all = race_.starts(count);
   const auto at_once = static_cast<std::size_t>(
       std::max(1.0, std::round((race_.plan().encloses ? kFinalsEnclosing : kFinals) * std::sqrt(options_.effort))));
@@ -173,7 +187,7 @@ std::vector<BuiltPart> LevelSearch::found_jointly(int count) {
     }
     if (best.keeps_rules) break;
   }
-  return best.parts;
+  return best;
 }
 
 bool LevelSearch::is_acceptable(const std::vector<BuiltPart>& parts) const {
@@ -287,16 +301,25 @@ const FoundLevel& LevelSearch::find(int parts_asked) {
   FoundLevel level = searched(parts_asked);
   if (options_.mode != FitMode::volume_true && parts_asked > 1) {
     // A bound may cost more parts more than they gain: then fewer are better.
-    const FoundLevel& fewer = find(static_cast<int>(std::bit_floor(static_cast<unsigned>(parts_asked - 1))));
-    if (level.parts.empty() || bound_gap(fewer) < bound_gap(level)) level = fewer;
+    const FoundLevel& fewer = find(fewer_parts(parts_asked));
+    level = nearer_to_bound(std::move(level), fewer, volume_);
   }
   return levels_[parts_asked] = std::move(level);
 }
 
-/// What the parts of a bound leave between them and the mesh [m3]; infinite if there are none.
-double LevelSearch::bound_gap(const FoundLevel& level) const {
-  if (level.parts.empty()) return std::numeric_limits<double>::infinity();
-  return std::abs(volume_of(level.parts) - volume_);
+double LevelSearch::expected_misfit(int parts) {
+  const CutTree& tree = race_.stage(0, parts);
+  const std::vector<int> pieces = tree.pieces(parts);
+  double misfit = 0;
+  for (const int number : pieces) {
+    const Piece& piece = tree.piece(number);
+    if (!race_.plan().encloses || piece.is_exact)
+      misfit += piece.error;
+    else  // compared by hulls that are estimates and know no cap
+      misfit += std::fmax(0.0, piece.error) +
+                kCapCost / options_.vertex_cap * std::pow(pieces.size(), -2.0 / 3) * piece.region.volume;
+  }
+  return misfit * volume_ / race_.solid().volume();
 }
 
 FoundLevel LevelSearch::searched(int parts_asked) {
@@ -308,8 +331,17 @@ FoundLevel LevelSearch::searched(int parts_asked) {
     std::vector<BuiltPart> parts =
         options_.mode == FitMode::enclosing ? found_as_hulls(cut, count) : std::vector<BuiltPart>{};
     const bool is_apart = !parts.empty() || fits_better_apart(cut, count);
-    if (parts.empty()) parts = is_apart ? found_apart(cut, count) : found_jointly(count);
-    if (!parts.empty()) return marked(std::move(parts), is_apart);
+    bool keeps_rules = true;
+    if (parts.empty() && is_apart) parts = found_apart(cut, count);
+    if (!is_apart) {
+      Finish finish = found_jointly(count);
+      parts = std::move(finish.parts);
+      keeps_rules = finish.keeps_rules;
+    }
+    if (parts.empty()) continue;
+    FoundLevel level = marked(std::move(parts), is_apart);
+    level.keeps_rules = keeps_rules;
+    return level;
   }
   return {};
 }
@@ -327,9 +359,7 @@ FoundLevel LevelSearch::marked(std::vector<BuiltPart> parts, bool is_apart) cons
   // Parts fitted jointly share their outlines on the cuts, but for corners that the rules have cost some.
   if (!is_apart) limits.smallest_ledge = kLargeLedge;
   const CutCoverage coverage = mark_faces(parts, cuts, limits);
-  FoundLevel level{std::move(parts), 0};
-  if (coverage.covered_area > 0) level.ledge_area = coverage.ledge_area / coverage.covered_area;
-  return level;
+  return {std::move(parts), coverage};
 }
 
 }  // namespace decomposition

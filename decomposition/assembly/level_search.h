@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "decomposition/assembly/face_kinds.h"
 #include "decomposition/assembly/part_builder.h"
 #include "decomposition/assembly/tree_race.h"
 #include "decomposition/convex_decomposition.h"
@@ -14,8 +15,16 @@ namespace decomposition {
 /// Finished parts with their faces marked.
 struct FoundLevel {
   std::vector<BuiltPart> parts;
-  double ledge_area = 0;  // see LevelFigures
+  CutCoverage coverage;
+  bool keeps_rules = true;  // on edges and faces (PartRules), but for what may break them; a bound may leave no room
 };
+
+/// The largest of 1, 2, 4, ... below a number of parts above 1.
+int fewer_parts(int parts);
+
+/// Of two levels whose parts keep a bound, the first unless it has no parts or leaves more between them and the mesh,
+/// which has that volume [m3].
+FoundLevel nearer_to_bound(FoundLevel level, const FoundLevel& other, double volume);
 
 /// The search on one mesh, kept while several levels are made: a race of cut trees, a long fit from the best of their
 /// starts, and the parts built from it. A level does not depend on which others were made before it.
@@ -26,6 +35,8 @@ class LevelSearch {
   /// At most `parts_asked` parts; no parts if none could be fitted. Parts that keep a bound are no farther from the
   /// mesh than those of 1, 2, 4, ... fewer.
   const FoundLevel& find(int parts_asked);
+  /// About what so many parts will differ from the mesh by, from a single tree: for sharing parts out [m3].
+  double expected_misfit(int parts);
 
  private:
   /// The finished parts of a start, and their misfit; no parts if one collapsed.
@@ -35,10 +46,9 @@ class LevelSearch {
     bool keeps_rules = false;      // a bound may leave no room for that
   };
   FoundLevel searched(int parts_asked);
-  double bound_gap(const FoundLevel& level) const;
   Finish finished(Partition partition) const;
   std::vector<BuiltPart> built(const Partition& partition) const;
-  std::vector<BuiltPart> found_jointly(int count);
+  Finish found_jointly(int count);
   bool fits_better_apart(const CutTree& tree, int count);
   std::vector<BuiltPart> found_apart(const CutTree& tree, int count) const;
   std::vector<BuiltPart> found_as_hulls(const CutTree& tree, int count) const;

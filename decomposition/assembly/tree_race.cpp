@@ -7,6 +7,7 @@
 #include <thread>
 #include <utility>
 
+#include "decomposition/fit/joint_misfit.h"
 #include "decomposition/fit/partition_start.h"
 #include "decomposition/geometry/parallel_for.h"
 
@@ -26,6 +27,9 @@ constexpr int kFirstChoice = 4, kManyParts = 8, kVeryManyParts = 16;
 constexpr double kIllFitting = 0.05;  // error of a drawn solid's pieces / its volume: worth another tree
 constexpr double kRoomToMove = 1.3;   // on the smallest volume and thickness: the joint fits move the cuts
 constexpr double kDirections = 24, kRefits = 20;
+// Merging of cuts: share of the pieces for each doubling of the effort. Of few pieces the last cuts are the least
+// useful ones as a rule; of many the gain is a little more than that of as much time for more trees.
+constexpr double kOvergrowth = 0.125, kMostOvergrowth = 0.5;
 constexpr int kMovingSteps = 150;  // of the joint fits that move a tree's cuts while it grows
 constexpr int kTrialSteps = 400;   // of the joint fits that compare trees
 constexpr double kTrialFirst = 0.02, kTrialLast = 0.001;
@@ -184,15 +188,28 @@ const CutTree& TreeRace::first_tree(int count) {
   return misfit_of(other, count) < misfit ? other : first;
 }
 
+/// Pieces that a tree gets before its least useful cuts are merged away again: more than asked for where effort allows.
+int TreeRace::overgrown(int count) const {
+  if (count <= kManyParts || plan_.encloses || solid_.is_faceted()) return count;
+  const double share = std::clamp(kOvergrowth * std::log2(options_.effort), 0.0, kMostOvergrowth);
+  return count + static_cast<int>(share * count);
+}
+
 std::vector<TreeRace::Start> TreeRace::starts_from(std::size_t tree, int count) {
   std::vector<Start> result;
+  const CutTree& from = polished(tree, count);
+  if (static_cast<int>(from.pieces(count).size()) < count) return result;  // the tree has no more
+  std::optional<CutTree> merged;
+  if (const int grown_to = overgrown(count); grown_to > count) {
+    merged.emplace(grown(tree, grown_to));
+    merged->merge_down(count);
+  }
   for (int variant = 0; variant < times_for_few(count); ++variant) {
     Start start;
     start.tree = tree;
     JointPlan plan = joint_plan();
     plan.seed = sub_seed(options_.seed, 100 * tree + static_cast<std::uint64_t>(variant));
-    start.partition = start_partition(solid_, polished(tree, count), count, options_.vertex_cap, plan.seed);
-    if (static_cast<int>(start.partition.leaves.size()) < count) continue;  // the tree has no more
+    start.partition = start_partition(solid_, merged ? *merged : from, count, options_.vertex_cap, plan.seed);
     if (trim(solid_, start.partition, rules(), Trim::caps).empty()) continue;
     if (!fit_jointly(solid_, start.partition, plan)) continue;
     start.misfit = joint_misfit(solid_, start.partition);

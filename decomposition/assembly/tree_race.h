@@ -61,6 +61,7 @@ class TreeRace {
   void move_cuts(TreeStages& stages, int count) const;
   void plant_trees(int count);
   std::vector<std::size_t> racing_trees(int count);
+  int overgrown(int count) const;
   std::vector<Start> starts_from(std::size_t tree, int count);
 
   DecompositionOptions options_;

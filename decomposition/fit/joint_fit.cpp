@@ -2,10 +2,8 @@
 #include "decomposition/fit/joint_fit.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "decomposition/fit/bumps.h"
-#include "decomposition/fit/column_measure.h"
 #include "decomposition/fit/face_forces.h"
 #include "decomposition/fit/leaf_shape.h"
 #include "decomposition/fit/part_fit.h"
@@ -371,31 +369,6 @@ class JointFitter {
 
 bool fit_jointly(const Solid& solid, Partition& partition, const JointPlan& plan) {
   return JointFitter(solid, partition, plan).run();
-}
-
-std::vector<std::vector<Vec3>> part_points(const Solid& solid, const Partition& partition) {
-  SectionPolygons polygons;
-  polygons.build(partition, kSameCorner * solid.diagonal());
-  std::vector<std::vector<Vec3>> parts;
-  for (const Leaf& leaf : partition.leaves) {
-    LeafShape shape;
-    shape.update(partition, leaf, polygons, solid.diagonal());
-    parts.push_back(std::move(shape.points));
-  }
-  return parts;
-}
-
-double joint_misfit(const Solid& solid, const Partition& partition, int stride) {
-  SectionPolygons sections;
-  sections.build(partition, kSameCorner * solid.diagonal());
-  ColumnMeasure measure(solid, stride);
-  double misfit = 0;
-  for (const Leaf& leaf : partition.leaves) {
-    LeafShape shape;
-    if (!shape.update(partition, leaf, sections, solid.diagonal())) return std::numeric_limits<double>::infinity();
-    misfit += measure(shape.points, shape.hull.faces()).misfit();
-  }
-  return misfit;
 }
 
 }  // namespace decomposition

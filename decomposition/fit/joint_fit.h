@@ -32,10 +32,4 @@ struct JointPlan {
 /// union and the solid becomes least. False if a part collapsed; the partition is then of no use.
 bool fit_jointly(const Solid& solid, Partition& partition, const JointPlan& plan);
 
-/// The corners of every part as the fit sees them: own points, then the corners on its cuts.
-std::vector<std::vector<Vec3>> part_points(const Solid& solid, const Partition& partition);
-
-/// V(P) - 2 V(P and solid) over all parts, see ColumnOverlap::misfit; infinite if a part is flat.
-double joint_misfit(const Solid& solid, const Partition& partition, int stride = 1);
-
 }  // namespace decomposition

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "decomposition/fit/joint_misfit.h"
+
 namespace decomposition {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "decomposition/fit/joint_fit.h"
+#include "decomposition/fit/joint_misfit.h"
 #include "decomposition/geometry/convex_polygon.h"
 
 namespace decomposition {

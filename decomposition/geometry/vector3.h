@@ -54,11 +54,21 @@ struct Box {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
+  bool meets(const Box& other) const {
+    return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y &&
+           low.z <= other.high.z && other.low.z <= high.z;
+  }
 };
 
 inline Box bounding_box(const std::vector<Vec3>& points) {
   Box box{points.front(), points.front()};
   for (const Vec3& p : points) box.extend(p);
+  return box;
+}
+
+inline Box bounding_box(const catalog::TriangleMesh& mesh) {
+  Box box{to_vec3(mesh.vertices.front()), to_vec3(mesh.vertices.front())};
+  for (const catalog::Point& p : mesh.vertices) box.extend(to_vec3(p));
   return box;
 }
 

@@ -2,7 +2,10 @@
 #include "decomposition/search/cut_candidates.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 #include "decomposition/fit/column_measure.h"
 #include "decomposition/search/column_hull.h"
@@ -11,7 +14,10 @@ namespace decomposition {
 namespace {
 
 constexpr std::array<double, 5> kQuantiles{0.2, 0.35, 0.5, 0.65, 0.8};
-constexpr std::size_t kMostFacetPlanes = 150;  // tried per piece
+constexpr std::size_t kMostFacetPlanes = 150;              // tried per piece
+constexpr double kLeastDepth = 0.02, kValleysApart = 0.2;  // of a piece's size: shallower is rough, nearer is the same
+constexpr std::size_t kMostValleys = 5;
+constexpr int kValleyTurns = 6, kSlopeDirections = 60;
 constexpr double kNotAllowed = std::numeric_limits<double>::infinity();
 
 /// Share of the points behind the plane.
@@ -19,6 +25,17 @@ double share_behind(const std::vector<Vec3>& points, const Plane& plane) {
   const auto behind =
       std::count_if(points.begin(), points.end(), [&](const Vec3& p) { return plane.signed_distance(p) < 0; });
   return static_cast<double>(behind) / static_cast<double>(points.size());
+}
+
+/// Steepest rise of the occupancy around p, over three cells; zero where there is none.
+Vec3 inward_slope(const Solid& solid, const Vec3& p) {
+  const double reach = 3 * solid.cell();
+  Vec3 slope;
+  for (int d = 0; d < kSlopeDirections; ++d) {
+    const Vec3 direction = spread_direction(d, kSlopeDirections);
+    slope += solid.occupancy(p + reach * direction) * direction;
+  }
+  return slope;
 }
 
 struct SideScore {
@@ -45,9 +62,10 @@ SideScore score_side(const CutTrial& trial, const Plane& plane, const TrialPlan&
   std::vector<Vec3> side;
   for (const Vec3& p : trial.points)
     if (plane.signed_distance(p) < 0) side.push_back(p);
-  const double volume = trial.volume * static_cast<double>(side.size()) / static_cast<double>(trial.points.size());
+  const double volume =
+      trial.piece.region.volume * static_cast<double>(side.size()) / static_cast<double>(trial.points.size());
   if (side.size() < 20 || volume < trial.plan.smallest_volume) return {};
-  std::vector<Plane> cell = trial.cell.planes;
+  std::vector<Plane> cell = trial.piece.cell.planes;
   cell.push_back(plane);
   const auto exact = exact_piece(trial.solid, cell, {trial.plan.vertex_cap, trial.plan.face_cap});
   const PartFit fit =
@@ -58,6 +76,82 @@ SideScore score_side(const CutTrial& trial, const Plane& plane, const TrialPlan&
   const double misfit =
       trial.plan.encloses ? fit.volume : ColumnMeasure(trial.solid, how.stride)(fit.points, hull.faces()).misfit();
   return {misfit, exact.has_value()};
+}
+
+void add_facet_planes(const CutTrial& trial, std::vector<Plane>& planes) {
+  const std::size_t before = planes.size();
+  for (const Plane& facet : trial.solid.facet_planes()) {
+    if (planes.size() - before >= kMostFacetPlanes) break;
+    const double share = share_behind(trial.points, facet);
+    if (share > 0 && share < 1) planes.push_back(facet);
+  }
+}
+
+void add_central_planes(const RegionMoments& region, std::vector<Plane>& planes) {
+  for (const Vec3& axis : region.semi_axes)
+    if (norm(axis) > 0) planes.push_back({normalized(axis), dot(normalized(axis), region.centroid)});
+}
+
+Plane wall_of(const std::vector<Vec3>& points, const std::array<int, 3>& face) {
+  const auto at = [&](std::size_t k) { return points[static_cast<std::size_t>(face[k])]; };
+  const Vec3 normal = normalized(cross(at(1) - at(0), at(2) - at(0)));
+  return {normal, dot(normal, at(0))};
+}
+
+/// Vertices of the mesh inside the piece that lie deepest in its stand-in, far from one another.
+std::vector<Vec3> valleys(const CutTrial& trial) {
+  const PartFit& fit = trial.piece.fit;
+  SmallHull hull;
+  if (!hull.build(fit.points)) return {};
+  std::vector<Plane> walls;
+  for (const std::array<int, 3>& face : hull.faces()) walls.push_back(wall_of(fit.points, face));
+  const double size = std::cbrt(trial.piece.region.volume);
+  std::vector<std::pair<double, Vec3>> places;
+  for (const Vec3& p : trial.solid.vertices()) {
+    double depth = std::numeric_limits<double>::infinity();
+    for (const Plane& wall : walls) {
+      depth = std::fmin(depth, -wall.signed_distance(p));
+      if (depth < kLeastDepth * size) break;
+    }
+    if (depth < kLeastDepth * size) continue;
+    if (std::all_of(trial.piece.cell.planes.begin(), trial.piece.cell.planes.end(),
+                    [&](const Plane& cut) { return cut.signed_distance(p) < 0; }))
+      places.push_back({depth, p});
+  }
+  std::stable_sort(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Vec3> result;
+  for (const auto& [depth, p] : places) {
+    if (result.size() >= kMostValleys) break;
+    if (std::none_of(result.begin(), result.end(),
+                     [&](const Vec3& other) { return norm(p - other) < kValleysApart * size; }))
+      result.push_back(p);
+  }
+  return result;
+}
+
+/// Upright in the surface and turned about its normal, so that one runs along the valley; and from valley to valley.
+void add_valley_planes(const CutTrial& trial, std::vector<Plane>& planes) {
+  const std::vector<Vec3> places = valleys(trial);
+  std::vector<Vec3> inward;
+  for (const Vec3& p : places) inward.push_back(inward_slope(trial.solid, p));
+  const auto add = [&](const Vec3& normal, const Vec3& p) {
+    if (norm(normal) > 0) planes.push_back({normalized(normal), dot(normalized(normal), p)});
+  };
+  for (std::size_t a = 0; a < places.size(); ++a) {
+    if (!(norm(inward[a]) > 0)) continue;
+    Vec3 u, v;
+    plane_axes(normalized(inward[a]), u, v);
+    for (int turn = 0; turn < kValleyTurns; ++turn) {
+      const double angle = std::numbers::pi * turn / kValleyTurns;
+      add(std::cos(angle) * u + std::sin(angle) * v, places[a]);
+    }
+    for (std::size_t b = 0; b < a; ++b) {
+      // Upright in both surfaces, as far as a plane can be.
+      const Vec3 along = normalized(places[b] - places[a]);
+      const Vec3 across_a = cross(along, inward[a]), across_b = cross(along, inward[b]);
+      add(dot(across_a, across_b) > 0 ? across_a + across_b : across_a - across_b, places[a]);
+    }
+  }
 }
 
 }  // namespace
@@ -74,11 +168,11 @@ std::vector<Plane> candidate_planes(const CutTrial& trial, Random& random) {
     for (const double quantile : kQuantiles)
       planes.push_back({normal, heights[static_cast<std::size_t>(quantile * static_cast<double>(heights.size()))]});
   }
-  const std::size_t random_planes = planes.size();
-  for (const Plane& facet : trial.solid.facet_planes()) {
-    if (planes.size() - random_planes >= kMostFacetPlanes) break;
-    const double share = share_behind(trial.points, facet);
-    if (share > 0 && share < 1) planes.push_back(facet);
+  if (trial.solid.is_faceted()) {
+    add_facet_planes(trial, planes);
+  } else if (!trial.plan.encloses) {  // what lowers the hulls of a piece's halves most at once is no better in the end
+    add_central_planes(trial.piece.region, planes);
+    add_valley_planes(trial, planes);
   }
   return planes;
 }

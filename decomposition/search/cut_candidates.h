@@ -12,9 +12,8 @@ namespace decomposition {
 struct CutTrial {
   const Solid& solid;
   const SearchPlan& plan;
-  const Cell& cell;
+  const Piece& piece;
   const std::vector<Vec3>& points;  // spread over the piece
-  double volume;                    // of the piece [m3]
   std::vector<Stretch> columns{};   // of the piece, where stand-ins are to enclose it
 };
 
@@ -32,7 +31,10 @@ struct CutScore {
   bool is_exact = false;  // both sides are convex as they stand: no better cut exists
 };
 
-/// Random directions times quantiles of the points along them, then the solid's own facet planes at re-entrant edges.
+/// Random directions times quantiles of the points along them. Of a drawn solid then its own facet planes at re-entrant
+/// edges; of a scan, unless hulls are
+/// compared, the planes through the piece's centroid across its principal directions, among which are its planes
+/// of symmetry, if it has any, and planes into its valleys: where its surface lies deepest below the stand-in.
 std::vector<Plane> candidate_planes(const CutTrial& trial, Random& random);
 
 /// The cut moved and turned a little: `reach` is the largest move / size of the piece, which has that middle.

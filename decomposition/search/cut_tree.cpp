@@ -85,7 +85,8 @@ Piece CutTree::make_piece(Cell cell, std::uint64_t seed) const {
 }
 
 CutTree::CutTree(const Solid& solid, const SearchPlan& plan) : solid_(solid), plan_(plan) {
-  nodes_.push_back({make_piece({}, sub_seed(plan.seed, 0)), 0, -1, false, false, std::nullopt});
+  nodes_.emplace_back();
+  nodes_.back().piece = make_piece({}, sub_seed(plan.seed, 0));
 }
 
 bool CutTree::is_allowed(const Piece& piece) const {
@@ -102,7 +103,7 @@ std::optional<CutTree::Cut> CutTree::best_cut(const Piece& piece, std::uint64_t 
   const std::vector<Vec3> points = solid_.points_inside(piece.cell.planes, kPointsAPiece, random);
   SearchPlan plan = plan_;
   plan.encloses = by == CompareBy::hulls;
-  CutTrial trial{solid_, plan, piece.cell, points, piece.region.volume};
+  CutTrial trial{solid_, plan, piece, points};
   if (plan.encloses) trial.columns = solid_.stretches_inside(piece.cell.planes, kColumnStride);
   const auto score_all = [&](const std::vector<Plane>& planes, const TrialPlan& fit) {
     std::vector<CutScore> scores(planes.size());
@@ -122,7 +123,8 @@ std::optional<CutTree::Cut> CutTree::best_cut(const Piece& piece, std::uint64_t 
   };
   const auto refits = static_cast<std::size_t>(plan_.refits);
   std::vector<CutScore> best = score_all(
-      planes_of(distinct(score_all(candidate_planes(trial, random), kCoarse), refits, std::cbrt(trial.volume))), kFine);
+      planes_of(distinct(score_all(candidate_planes(trial, random), kCoarse), refits, std::cbrt(piece.region.volume))),
+      kFine);
   if (best.empty() || !std::isfinite(best.front().misfit)) return std::nullopt;
   double reach = kFirstReach;
   for (int round = 0; round < plan_.polishing_rounds && !best.front().is_exact; ++round, reach /= 2) {
@@ -180,22 +182,113 @@ CutTree::Node* CutTree::leaf_without_gain() {
   return chosen;
 }
 
+void CutTree::make_cut(Node& leaf) {
+  const int number = static_cast<int>(cuts_.size());
+  Cut cut = std::move(*leaf.best);
+  leaf.best.reset();
+  leaf.split = number;
+  leaf.halves = static_cast<int>(nodes_.size());
+  cuts_.push_back(cut.plane);
+  divided_.push_back(static_cast<int>(&leaf - nodes_.data()));
+  for (Piece& half : cut.halves) {
+    half.cell.cuts.back() = number;  // cuts may have been made since this one was found
+    Node node;
+    node.piece = std::move(half);
+    node.born = number + 1;
+    nodes_.push_back(std::move(node));
+  }
+}
+
 void CutTree::grow(int count) {
   while (static_cast<int>(cuts_.size()) + 1 < count) {
     Node* chosen = most_gainful_leaf();
     if (!chosen) chosen = leaf_without_gain();
     if (!chosen) return;
-    const int number = static_cast<int>(cuts_.size());
-    Cut cut = std::move(*chosen->best);
-    chosen->best.reset();
-    chosen->split = number;
-    cuts_.push_back(cut.plane);
-    divided_.push_back(static_cast<int>(chosen - nodes_.data()));
-    for (Piece& half : cut.halves) {
-      half.cell.cuts.back() = number;  // cuts may have been made since this one was found
-      nodes_.push_back({std::move(half), number + 1, -1, false, false, std::nullopt});
-    }
+    make_cut(*chosen);
   }
+}
+
+bool CutTree::has_whole_halves(const Node& node) const {
+  if (node.split < 0) return false;
+  const auto half = nodes_.begin() + node.halves;
+  return half[0].split < 0 && half[1].split < 0;
+}
+
+/// Takes a cut away whose halves are leaves. It stays known as the best of its piece.
+void CutTree::merge(Node& divided) {
+  const int cut = divided.split, first = divided.halves;
+  Cut best;
+  best.gain = divided.piece.error - nodes_[static_cast<std::size_t>(first)].piece.error -
+              nodes_[static_cast<std::size_t>(first) + 1].piece.error;
+  best.plane = cuts_[static_cast<std::size_t>(cut)];
+  for (int side = 0; side < 2; ++side)
+    best.halves[static_cast<std::size_t>(side)] = std::move(nodes_[static_cast<std::size_t>(first + side)].piece);
+  divided.best = std::move(best);
+  divided.split = -1;
+  divided.is_merged = false;
+  nodes_.erase(nodes_.begin() + first, nodes_.begin() + first + 2);
+  cuts_.erase(cuts_.begin() + cut);
+  divided_.erase(divided_.begin() + cut);
+  for (int& node : divided_)
+    if (node > first) node -= 2;
+  for (Node& node : nodes_) {
+    if (node.halves > first) node.halves -= 2;
+    if (node.split > cut) --node.split;
+    if (node.born > cut + 1) --node.born;
+    for (int& number : node.piece.cell.cuts)
+      if (number > cut) --number;
+    if (!node.best) continue;
+    for (Piece& half : node.best->halves)
+      for (int& number : half.cell.cuts)
+        if (number > cut) --number;
+  }
+}
+
+/// Least sum of errors of each node's cell in 0, 1, ... `count` pieces, infinite where it cannot have so many.
+std::vector<std::vector<double>> CutTree::least_errors(int count) {
+  const auto most = static_cast<std::size_t>(count);
+  std::vector<std::vector<double>> least(nodes_.size(),
+                                         std::vector<double>(most + 1, std::numeric_limits<double>::infinity()));
+  for (std::size_t n = nodes_.size(); n-- > 0;) {  // halves come after what they are halves of
+    Node& node = nodes_[n];
+    if (node.is_outdated) {
+      node.piece = make_piece(node.piece.cell, sub_seed(plan_.seed, 6000000 + n));
+      node.is_outdated = false;
+    }
+    least[n][1] = node.piece.error;
+    if (node.split < 0) continue;
+    const auto half = static_cast<std::size_t>(node.halves);
+    for (std::size_t k = 2; k <= most; ++k)
+      for (std::size_t i = 1; i < k; ++i) least[n][k] = std::fmin(least[n][k], least[half][i] + least[half + 1][k - i]);
+  }
+  return least;
+}
+
+/// Marks what has to be merged for the node's cell to be in so many pieces of the least error.
+void CutTree::mark_merged(int number, int count, const std::vector<std::vector<double>>& least) {
+  Node& node = nodes_[static_cast<std::size_t>(number)];
+  if (node.split < 0) return;
+  node.is_merged = count <= 1;
+  const auto half = static_cast<std::size_t>(node.halves);
+  int in_first = 1;
+  for (int i = 2; i < count; ++i) {
+    const auto error = [&](int k) {
+      return least[half][static_cast<std::size_t>(k)] + least[half + 1][static_cast<std::size_t>(count - k)];
+    };
+    if (error(i) < error(in_first)) in_first = i;
+  }
+  mark_merged(node.halves, in_first, least);
+  mark_merged(node.halves + 1, count - in_first, least);
+}
+
+void CutTree::merge_down(int count) {
+  if (static_cast<int>(cuts_.size()) < count) return;
+  mark_merged(0, count, least_errors(count));
+  const auto next = [&] {
+    return std::find_if(nodes_.begin(), nodes_.end(),
+                        [&](const Node& node) { return node.is_merged && has_whole_halves(node); });
+  };
+  for (auto node = next(); node != nodes_.end(); node = next()) merge(*node);
 }
 
 /// Sum of the hulls of all leaves with these cuts; those that do not lie at `cut` are taken from `by_node` if known
@@ -249,7 +342,8 @@ void CutTree::move_cuts(const std::vector<Plane>& cuts) {
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     Node& node = nodes_[n];
     node.piece.cell = placed(node.piece.cell, cuts);
-    if (node.split >= 0) continue;
+    node.is_outdated = node.split >= 0;
+    if (node.is_outdated) continue;
     node.piece = make_piece(node.piece.cell, sub_seed(plan_.seed, 5000000 + n));
     node.was_searched = node.was_searched_otherwise = false;
     node.best.reset();

@@ -57,6 +57,9 @@ class CutTree {
 
   /// Cuts until there are `count` pieces or no cut helps.
   void grow(int count);
+  /// Merges halves so that `count` pieces are left and their errors add up to the least there is in this tree: what a
+  /// cut gains is known only when those that it makes room for are made as well. Ends the nesting of the levels.
+  void merge_down(int count);
   /// Moves the cuts a little, one at a time, as long as that takes volume off the hulls of the pieces.
   void polish_hulls();
   /// Puts the cuts in these places; pieces that are not cut yet are fitted again.
@@ -79,8 +82,11 @@ class CutTree {
   };
   struct Node {
     Piece piece;
-    int born = 0;    // number of cuts made when this piece came to be
-    int split = -1;  // number of the cut that ended it, -1: still a leaf
+    int born = 0;              // number of cuts made when this piece came to be
+    int split = -1;            // number of the cut that ended it, -1: still a leaf
+    int halves = 0;            // number of the first of its two halves, which stand together
+    bool is_merged = false;    // its halves are to become one again
+    bool is_outdated = false;  // its cuts have moved since the piece was made, which was cut by then
     bool was_searched = false, was_searched_otherwise = false;
     std::optional<Cut> best;
   };
@@ -90,6 +96,12 @@ class CutTree {
   std::optional<Cut> best_cut(const Piece& piece, std::uint64_t seed, CompareBy by) const;
   Node* most_gainful_leaf();
   Node* leaf_without_gain();
+  void make_cut(Node& leaf);
+  bool has_whole_halves(const Node& node) const;
+  double loss_of_merging(const Node& node) const;
+  std::vector<std::vector<double>> least_errors(int count);
+  void mark_merged(int node, int count, const std::vector<std::vector<double>>& least);
+  void merge(Node& divided);
   bool is_allowed(const Piece& piece) const;
 
   Piece make_piece(Cell cell, std::uint64_t seed) const;

@@ -11,6 +11,7 @@
 #include "catalog/mass_properties.h"
 #include "decomposition/geometry/vector3.h"
 #include "decomposition/solid/ray_grid.h"
+#include "decomposition/solid/surface_pieces.h"
 
 namespace decomposition {
 namespace {
@@ -106,7 +107,11 @@ double check_solid(const catalog::TriangleMesh& mesh) {
   if (!(diagonal >= kSmallestDiagonal))
     refuse("it is " + number(diagonal) + " m across, expected at least 1e-12; check the unit of the scan");
   const double volume = catalog::volume_moments(mesh).volume;
-  const double share = volume / (diagonal * diagonal * diagonal);
+  // Bodies apart are looked at one by one: the distance between them says nothing of any.
+  const std::vector<catalog::TriangleMesh> bodies = bodies_apart(mesh);
+  double cubes = bodies.empty() ? diagonal * diagonal * diagonal : 0;
+  for (const catalog::TriangleMesh& body : bodies) cubes += std::pow(bounding_box(body).diagonal(), 3);
+  const double share = volume / cubes;
   if (!(std::abs(share) > kFlat))
     refuse("it is flat, its volume is " + number(share) +
            " of its diagonal cubed, expected more than 1e-7; scan the particle from all sides or leave it out");
@@ -115,7 +120,13 @@ double check_solid(const catalog::TriangleMesh& mesh) {
         "it is inside out, its normals point inward and its volume is negative; turn its faces round, or repair it "
         "with "
         "talus digitize");
-  const Miscount miscount = miscounted_volume(mesh, box);
+  Miscount miscount;
+  if (bodies.empty()) miscount = miscounted_volume(mesh, box);
+  for (const catalog::TriangleMesh& body : bodies) {
+    const Miscount own = miscounted_volume(body, bounding_box(body));
+    miscount.repeated += own.repeated;
+    miscount.inverted += own.inverted;
+  }
   const double enclosed = volume - miscount.repeated + miscount.inverted;  // once
   const double sum = miscount.repeated + miscount.inverted;
   if (!(sum <= kMostMiscounted * enclosed))

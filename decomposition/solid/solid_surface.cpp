@@ -31,19 +31,8 @@ catalog::TriangleMesh kept_faces(const catalog::TriangleMesh& mesh, const Surfac
                                  const std::vector<char>& is_kept) {
   catalog::TriangleMesh result;
   std::vector<int> number(mesh.vertices.size(), -1);
-  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-    if (!is_kept[static_cast<std::size_t>(found.piece_of[f])]) continue;
-    catalog::Triangle face = mesh.faces[f];
-    for (int& v : face) {
-      int& renumbered = number[static_cast<std::size_t>(v)];
-      if (renumbered < 0) {
-        renumbered = static_cast<int>(result.vertices.size());
-        result.vertices.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
-      }
-      v = renumbered;
-    }
-    result.faces.push_back(face);
-  }
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    if (is_kept[static_cast<std::size_t>(found.piece_of[f])]) add_face(mesh, f, number, result);
   return result;
 }
 

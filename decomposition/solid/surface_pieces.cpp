@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "catalog/mass_properties.h"
+#include "decomposition/geometry/box_heaps.h"
 #include "decomposition/solid/ray_grid.h"
 
 namespace decomposition {
@@ -102,6 +103,20 @@ PieceRole role_of(bool is_outward, int winding_around) {
 
 }  // namespace
 
+void add_face(const catalog::TriangleMesh& mesh, std::size_t face, std::vector<int>& number,
+              catalog::TriangleMesh& result) {
+  catalog::Triangle corners = mesh.faces[face];
+  for (int& v : corners) {
+    int& renumbered = number[static_cast<std::size_t>(v)];
+    if (renumbered < 0) {
+      renumbered = static_cast<int>(result.vertices.size());
+      result.vertices.push_back(mesh.vertices[static_cast<std::size_t>(v)]);
+    }
+    v = renumbered;
+  }
+  result.faces.push_back(corners);
+}
+
 int SurfacePieces::count(PieceRole role) const {
   return static_cast<int>(
       std::count_if(pieces.begin(), pieces.end(), [&](const SurfacePiece& piece) { return piece.role == role; }));
@@ -134,6 +149,47 @@ SurfacePieces surface_pieces(const catalog::TriangleMesh& mesh) {
     if (piece.role != PieceRole::cavity) piece.body = -1;
     result.pieces.push_back(piece);
   }
+  return result;
+}
+
+void add_mesh(const catalog::TriangleMesh& other, catalog::TriangleMesh& mesh) {
+  const int first = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const catalog::Triangle& face : other.faces)
+    mesh.faces.push_back({face[0] + first, face[1] + first, face[2] + first});
+}
+
+std::vector<catalog::TriangleMesh> separate_bodies(const catalog::TriangleMesh& mesh) {
+  if (count_pieces(mesh) < 2) return {};
+  const SurfacePieces found = surface_pieces(mesh);
+  const int bodies = found.count(PieceRole::body);
+  const int surfaces = static_cast<int>(found.pieces.size());
+  if (bodies < 2 || bodies + found.count(PieceRole::cavity) < surfaces) return {};
+  std::vector<int> body_of(found.pieces.size());  // counted without the cavities
+  int count = 0;
+  for (std::size_t p = 0; p < body_of.size(); ++p)
+    if (found.pieces[p].role == PieceRole::body) body_of[p] = count++;
+  for (std::size_t p = 0; p < body_of.size(); ++p)
+    if (found.pieces[p].role == PieceRole::cavity) body_of[p] = body_of[static_cast<std::size_t>(found.pieces[p].body)];
+  std::vector<catalog::TriangleMesh> result(static_cast<std::size_t>(bodies));
+  std::vector<int> number(mesh.vertices.size(), -1);  // no two surfaces share a vertex
+  for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+    const int body = body_of[static_cast<std::size_t>(found.piece_of[f])];
+    add_face(mesh, f, number, result[static_cast<std::size_t>(body)]);
+  }
+  return result;
+}
+
+std::vector<catalog::TriangleMesh> bodies_apart(const catalog::TriangleMesh& mesh) {
+  const std::vector<catalog::TriangleMesh> bodies = separate_bodies(mesh);
+  std::vector<Box> boxes;
+  for (const catalog::TriangleMesh& body : bodies) boxes.push_back(bounding_box(body));
+  std::vector<catalog::TriangleMesh> result;
+  for (const Heap& heap : heaps_of(boxes)) {
+    result.emplace_back();
+    for (const std::size_t body : heap) add_mesh(bodies[body], result.back());
+  }
+  if (result.size() == 1) result.clear();
   return result;
 }
 

@@ -35,4 +35,19 @@ int count_pieces(const catalog::TriangleMesh& mesh);
 /// cross count as apart: the winding numbers tell (see MiscountedVolume). Time grows with pieces x faces.
 SurfacePieces surface_pieces(const catalog::TriangleMesh& mesh);
 
+/// Adds a face of the mesh to `result`, and those of its vertices that are new there. `number` (n_vertices) is where
+/// the mesh's vertices stand in `result`, -1: not yet.
+void add_face(const catalog::TriangleMesh& mesh, std::size_t face, std::vector<int>& number,
+              catalog::TriangleMesh& result);
+
+/// Adds all vertices and faces of a mesh to another.
+void add_mesh(const catalog::TriangleMesh& other, catalog::TriangleMesh& mesh);
+
+/// The bodies of a mesh one by one, each with its cavities, in the order of first appearance; none if the mesh is a
+/// single body, or has surfaces that are neither body nor cavity.
+std::vector<catalog::TriangleMesh> separate_bodies(const catalog::TriangleMesh& mesh);
+
+/// The same, with bodies whose boxes meet in one mesh; none if that makes one.
+std::vector<catalog::TriangleMesh> bodies_apart(const catalog::TriangleMesh& mesh);
+
 }  // namespace decomposition

@@ -84,6 +84,32 @@ void append_polyhedron(HostShapeColumns& columns, const PolyhedralShape& polyhed
     append_depth_field(columns, fields[p], cap, columns.parts[static_cast<std::size_t>(range.first_part) + p]);
 }
 
+/// Appends `count` entries from `first` on, and returns where they are.
+template <class Entry>
+int copy_entries(const std::vector<Entry>& from, int first, int count, std::vector<Entry>& to) {
+  const int place = static_cast<int>(to.size());
+  to.insert(to.end(), from.begin() + first, from.begin() + first + count);
+  return place;
+}
+
+void copy_part(const HostShapeColumns& from, PartRange part, HostShapeColumns& to) {
+  part.first_vertex = copy_entries(from.vertices, part.first_vertex, part.vertex_count, to.vertices);
+  copy_entries(from.planes, part.first_face, part.face_count, to.planes);
+  part.first_face = copy_entries(from.faces, part.first_face, part.face_count, to.faces);
+  for (int f = part.first_face; f < part.first_face + part.face_count; ++f) {
+    FaceCorners& face = to.faces[static_cast<std::size_t>(f)];
+    face.first = copy_entries(from.corners, face.first, face.count, to.corners);
+  }
+  part.first_depth_plane =
+      copy_entries(from.depth_planes, part.first_depth_plane, part.depth_plane_count, to.depth_planes);
+  part.first_depth_term = copy_entries(from.depth_terms, part.first_depth_term, part.depth_term_count, to.depth_terms);
+  for (int t = part.first_depth_term; t < part.first_depth_term + part.depth_term_count; ++t) {
+    DepthTerm& term = to.depth_terms[static_cast<std::size_t>(t)];
+    term.first = copy_entries(from.term_planes, term.first, term.count, to.term_planes);
+  }
+  to.parts.push_back(part);
+}
+
 }  // namespace
 
 HostShapeColumns make_host_shape_columns(const std::vector<Shape>& shapes, std::optional<Real> depth_cap) {
@@ -103,7 +129,10 @@ HostShapeColumns make_host_shape_columns(const std::vector<Shape>& shapes, std::
 }
 
 ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, std::optional<Real> depth_cap) {
-  const HostShapeColumns host = make_host_shape_columns(shapes, depth_cap);
+  return to_device(make_host_shape_columns(shapes, depth_cap));
+}
+
+ShapeColumns to_device(const HostShapeColumns& host) {
   ShapeColumns columns;
   assign(columns.shapes, host.shapes);
   assign(columns.parts, host.parts);
@@ -115,6 +144,25 @@ ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, std::optional<
   assign(columns.depth_terms, host.depth_terms);
   assign(columns.term_planes, host.term_planes);
   return columns;
+}
+
+HostShapeColumns to_host(const ShapeColumns& columns) {
+  return {to_host(columns.shapes),       to_host(columns.parts),       to_host(columns.vertices),
+          to_host(columns.planes),       to_host(columns.faces),       to_host(columns.corners),
+          to_host(columns.depth_planes), to_host(columns.depth_terms), to_host(columns.term_planes)};
+}
+
+HostShapeColumns chosen_shapes(const HostShapeColumns& columns, const std::vector<int>& rows) {
+  HostShapeColumns chosen;
+  for (const int row : rows) {
+    ShapeRange range = columns.shapes[static_cast<std::size_t>(row)];
+    const int first = range.first_part;
+    if (range.part_count > 0) range.first_part = static_cast<int>(chosen.parts.size());
+    for (int p = first; p < first + range.part_count; ++p)
+      copy_part(columns, columns.parts[static_cast<std::size_t>(p)], chosen);
+    chosen.shapes.push_back(range);
+  }
+  return chosen;
 }
 
 ShapeView view(const ShapeColumns& columns) {

@@ -109,6 +109,10 @@ struct ShapeView {
 /// `depth_cap` in equivalent diameters: a constant term of every depth field; nullopt: no depth fields.
 HostShapeColumns make_host_shape_columns(const std::vector<Shape>& shapes, std::optional<Real> depth_cap);
 ShapeColumns make_shape_columns(const std::vector<Shape>& shapes, std::optional<Real> depth_cap);
+ShapeColumns to_device(const HostShapeColumns& host);
+HostShapeColumns to_host(const ShapeColumns& columns);
+/// The shapes of these rows alone, in this order.
+HostShapeColumns chosen_shapes(const HostShapeColumns& columns, const std::vector<int>& rows);
 ShapeView view(const ShapeColumns& columns);
 ShapeView view(const HostShapeColumns& columns);
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dem_gpu/start/lone_pair.h"
 
+#include <algorithm>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/start/model_builder.h"
@@ -21,7 +24,15 @@ Wall wall_alone(const Model& whole, int index) {
   return wall;
 }
 
-/// Body 0 is a; body 1, or the wall, is b.
+/// Row of a wall among the shapes of the whole scene; nothing if it is no volume object.
+std::optional<int> object_row(const Model& whole, int wall) {
+  const auto is_object = [](const Wall& of) { return std::holds_alternative<VolumeObject>(of.geometry); };
+  const std::vector<Wall>& walls = whole.scene.walls;
+  if (!is_object(walls[wall])) return std::nullopt;
+  return whole.shapes.first_object + static_cast<int>(std::count_if(walls.begin(), walls.begin() + wall, is_object));
+}
+
+/// Body 0 is a; body 1, or the wall, is b. Each body has a shape of its own.
 Scene scene_of(const Model& whole, const StartPair& pair) {
   const Scene& scene = whole.scene;
   Scene alone;
@@ -30,7 +41,6 @@ Scene scene_of(const Model& whole, const StartPair& pair) {
   alone.materials = scene.materials;
   const std::size_t n = scene.materials.size();
   alone.contact.assign(n, std::vector<ContactProperties>(n, {1, 0}));
-  alone.shapes = scene.shapes;
   alone.polyhedral_law = scene.polyhedral_law;
   alone.sphere_law = scene.sphere_law;
   alone.friction = std::nullopt;
@@ -41,6 +51,8 @@ Scene scene_of(const Model& whole, const StartPair& pair) {
     copy.position += moved_by;
     copy.velocity = copy.angular_velocity = {};
     copy.is_fixed = false;
+    copy.shape = static_cast<int>(alone.shapes.size());
+    alone.shapes.push_back(scene.shapes[body.shape]);
     alone.bodies.push_back(copy);
   };
   add(scene.bodies[pair.a], {});
@@ -51,19 +63,23 @@ Scene scene_of(const Model& whole, const StartPair& pair) {
   return alone;
 }
 
-/// The whole scene's, the wall's own object, if it is one, taken for the first.
-PreparedShapes shapes_of(const Model& whole, const StartPair& pair) {
-  PreparedShapes shapes = whole.shapes;
-  if (!pair.has_wall()) return shapes;
-  for (int w = 0; w < pair.b; ++w)
-    shapes.first_object += std::holds_alternative<VolumeObject>(whole.scene.walls[w].geometry);
+/// Of the bodies of scene_of(), and of the wall if it is an object.
+PreparedShapes shapes_of(const Model& whole, const HostShapeColumns& columns, const StartPair& pair) {
+  std::vector<int> rows{whole.scene.bodies[pair.a].shape};
+  if (!pair.has_wall()) rows.push_back(whole.scene.bodies[pair.b].shape);
+  PreparedShapes shapes;
+  for (const int row : rows) shapes.least_width.push_back(whole.shapes.least_width[row]);
+  shapes.first_object = static_cast<int>(rows.size());
+  if (pair.has_wall())
+    if (const std::optional<int> row = object_row(whole, pair.b)) rows.push_back(*row);
+  shapes.columns = to_device(chosen_shapes(columns, rows));
   return shapes;
 }
 
 }  // namespace
 
-LonePair::LonePair(const Model& whole, const StartPair& pair)
-    : model_(make_model(scene_of(whole, pair), shapes_of(whole, pair), at_start_)),
+LonePair::LonePair(const Model& whole, const HostShapeColumns& shapes, const StartPair& pair)
+    : model_(make_model(scene_of(whole, pair), shapes_of(whole, shapes, pair), at_start_)),
       passes_(build_step(model_.scene)),
       place_(model_.scene.bodies[0].position) {}
 

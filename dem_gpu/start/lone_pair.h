@@ -6,6 +6,7 @@
 
 #include "dem_gpu/bodies/model_state.h"
 #include "dem_gpu/core/pass.h"
+#include "dem_gpu/shapes/shape_columns.h"
 
 namespace dem_gpu {
 
@@ -22,7 +23,8 @@ struct StartPair {
 /// stays; a is moved about.
 class LonePair {
  public:
-  LonePair(const Model& whole, const StartPair& pair);
+  /// `shapes`: the columns of the whole scene's shapes.
+  LonePair(const Model& whole, const HostShapeColumns& shapes, const StartPair& pair);
 
   /// Elastic force on a when it is `shift` away from its place [N]; zero where the two do not touch.
   Vec3 force_at(const Vec3& shift);

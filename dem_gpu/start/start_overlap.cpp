@@ -148,10 +148,11 @@ Real book_start_energy(const Model& model, State& state) {
   auto stored = to_host(state.contacts.elastic_work);
   const GhostOwners ghosts(model, state);
   const PeriodicLattice lattice = lattice_of(model.scene);
+  const HostShapeColumns shapes = to_host(model.shapes.columns);
   Real sum = 0;
   for (std::size_t c = 0; c < keys.size(); ++c) {
     if (!(depth[c] > kLeastDepth * width[key_body_a(keys[c])])) continue;
-    stored[c] = stored_energy(LonePair(model, pair_of(keys[c], ghosts, lattice)), force[c], depth[c]);
+    stored[c] = stored_energy(LonePair(model, shapes, pair_of(keys[c], ghosts, lattice)), force[c], depth[c]);
     sum += stored[c];
   }
   assign(state.contacts.elastic_work, stored);

@@ -46,7 +46,8 @@ void refuse_flat_scan(const std::filesystem::path& path, const std::vector<catal
   const std::string found = !(spread(2) > rounding)               ? "all points are in one place"
                             : spread(1) <= kFlatRatio * spread(2) ? "all points lie on one line"
                                                                   : "all points lie in one plane";
-  refuse_file(path, "points", "expected a solid particle, but " + found, "scan it from all sides");
+  refuse_file(path, "points", "expected a solid particle, but " + found,
+              "scan it from all sides; of bodies far apart, each alone");
 }
 
 void refuse_impossible_size(const std::filesystem::path& path, const std::vector<catalog::Point>& points) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "catalog/mass_properties.h"
@@ -164,6 +165,29 @@ inline void expect_matching_cuts(const catalog::LevelOfDetail& level, double tol
     ASSERT_TRUE(areas.contains(other)) << "no inner face on the other side of a cut";
     EXPECT_NEAR(area / areas.at(other), 1, tolerance);
   }
+}
+
+/// What decompose() reports as LevelFigures::ledge_area.
+inline double ledge_share(const catalog::LevelOfDetail& level) {
+  const std::string key = "\"ledge_area_ratio\":", &text = level.provenance.options;
+  const std::size_t at = text.find(key);
+  return at == std::string::npos ? 0 : std::stod(text.substr(at + key.size()));
+}
+
+/// The inner areas of the two sides of every cut differ by the ledges that the level reports, and by no more.
+inline void expect_cuts_matching_but_for_ledges(const catalog::LevelOfDetail& level) {
+  const std::map<PlaneKey, double> areas = inner_areas(level);
+  double all = 0, difference = 0;
+  for (const auto& [plane, area] : areas) {
+    const auto other = areas.find({-plane[0] + 0.0, -plane[1] + 0.0, -plane[2] + 0.0, -plane[3] + 0.0});
+    all += area;
+    // Each pair of sides is met twice, a side without inner faces once.
+    difference += other == areas.end() ? area : std::abs(area - other->second) / 2;
+  }
+  // Both sides together hold twice the covered area, but for ledges.
+  const double share = ledge_share(level);
+  EXPECT_LE(difference, share * all / (2 - share) + 1e-9 * all);
+  EXPECT_LT(share, 0.5);
 }
 
 /// No edge of a part is shorter, and no face narrower, than that share of the part's size (of size_of).

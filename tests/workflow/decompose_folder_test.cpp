@@ -172,7 +172,7 @@ TEST(DecomposeFolder, AFolderIsNoCatalogueAndOptionsOfScansNeedOne) {
   EXPECT_NE(read_bytes(folder / "err").find("--into ore.talus --unit mm"), std::string::npos);
   EXPECT_EQ(decompose(folder, "scans --into ore.talus --unit mm"), 3);
   EXPECT_NE(read_bytes(folder / "err").find("no scan files in this folder"), std::string::npos);
-  EXPECT_EQ(decompose(folder, "scans --into ore.talus"), 3) << "no unit is guessed";
+  EXPECT_EQ(decompose(folder, "scans --into ore.talus"), 2) << "no unit is guessed";
   EXPECT_EQ(decompose(folder, "ore.talus --unit mm"), 2);
   EXPECT_EQ(decompose(folder, "a.talus b.talus"), 2);
   EXPECT_EQ(decompose(folder, "scans --into ore.talus --unit mm --select \"volume > 1\""), 2);

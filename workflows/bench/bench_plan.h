@@ -49,6 +49,7 @@ struct CaseResult {
 struct BenchCase {
   std::string name;
   std::function<CaseResult()> measure;
+  std::string inputs{};  // hashes of what it measures, so that a case is kept as long as these stay; empty: all inputs
 };
 
 /// A plot, with logarithmic axes unless `is_linear`; each curve that names it is drawn in it.

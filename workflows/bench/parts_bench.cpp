@@ -17,7 +17,7 @@ namespace workflows {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
-constexpr std::uint64_t kOtherSeeds[] = {2, 3, 4};
+constexpr std::uint64_t kOtherSeeds[] = {2, 3, 4, 5, 6, 7, 8, 9};
 
 /// Largest distance of a vertex from the centre of mass, of a shape of volume 1, over its diameter.
 double reach_of(const dem_gpu::Shape& shape) {
@@ -32,6 +32,23 @@ double largest_reach(const ShapeLevels& rock) {
   double reach = 0;
   for (const Level& level : rock.shape.levels) reach = std::max(reach, reach_of(rock.unit_shape(level)));
   return reach;
+}
+
+/// Hash of the bodies of a bed and where they start: other levels of the catalogue may come and go.
+std::string inputs_of(const dem_gpu::Shape& shape, double reach) {
+  std::string bytes;
+  const auto add = [&](const auto* values, std::size_t count) {
+    bytes.append(reinterpret_cast<const char*>(values), count * sizeof *values);
+  };
+  for (const catalog::ConvexPart& part : std::get<dem_gpu::PolyhedralShape>(shape.geometry).parts) {
+    for (const catalog::Point& vertex : part.vertices) add(vertex.data(), vertex.size());
+    for (const catalog::ConvexFace& face : part.faces) {
+      add(face.vertices.data(), face.vertices.size());
+      add(&face.kind, 1);
+    }
+  }
+  add(&reach, 1);
+  return "level " + catalog::sha256(bytes.data(), bytes.size());
 }
 
 /// What the bed answers, and what it costs. A run that fails says why in each figure.
@@ -93,12 +110,14 @@ CaseResult measure_level(const ShapeLevels& rock, const Level& level) {
   return result;
 }
 
+const Level& cheapest_level(const ShapeLevels& rock) {
+  return *std::min_element(rock.shape.levels.begin(), rock.shape.levels.end(),
+                           [](const Level& a, const Level& b) { return contact_cost(a) < contact_cost(b); });
+}
+
 /// Standard deviation of each answer over other places and attitudes of the rocks, at the cheapest level.
 CaseResult measure_spread(const ShapeLevels& rock) {
-  const Level cheapest =
-      *std::min_element(rock.shape.levels.begin(), rock.shape.levels.end(),
-                        [](const Level& a, const Level& b) { return contact_cost(a) < contact_cost(b); });
-  const dem_gpu::Shape shape = rock.unit_shape(cheapest);
+  const dem_gpu::Shape shape = rock.unit_shape(cheapest_level(rock));
   const double reach = largest_reach(rock);
   std::vector<Response> responses;
   for (const std::uint64_t seed : kOtherSeeds) responses.push_back(respond(shape, reach, seed));
@@ -139,13 +158,16 @@ BenchPlan plan_parts_bench(const BenchOptions& options) {
   std::vector<PartsStudy> studies;
   for (const ShapeLevels& rock : levels_of_catalogue(options.catalogue)) {
     PartsStudy study{rock.shape.name, {}, rock.shape.name + "-spread"};
+    const double reach = largest_reach(rock);
     for (const auto& [name, ladder] : rock.ladders())
       for (const Level& level : ladder) {
         const std::string parts = std::to_string(level.key.parts_asked);
         study.rows.push_back({rock.shape.name + "-" + name + "-" + parts, parts + " x " + ladder_text(level.key)});
-        plan.cases.push_back({study.rows.back().case_name, [rock, level] { return measure_level(rock, level); }});
+        plan.cases.push_back({study.rows.back().case_name, [rock, level] { return measure_level(rock, level); },
+                              inputs_of(rock.unit_shape(level), reach)});
       }
-    plan.cases.push_back({study.spread_case, [rock] { return measure_spread(rock); }});
+    plan.cases.push_back({study.spread_case, [rock] { return measure_spread(rock); },
+                          inputs_of(rock.unit_shape(cheapest_level(rock)), reach)});
     studies.push_back(std::move(study));
   }
   plan.page = [studies](const std::vector<ReportedFigure>& figures) { return parts_page(figures, studies); };

@@ -98,6 +98,10 @@ TEST(DecomposeStage, KeepsWhatIsCurrentAndRemakesWhatIsNot) {
   options.quality.seed = 5;
   EXPECT_EQ(made_new(), 3);
   EXPECT_EQ(shapes.summary(*shapes.find("cube")).levels.size(), 12u) << "another seed has not";
+  options.quality.smallest_volume = 0.02;
+  EXPECT_EQ(made_new(), 3);
+  options.quality.smallest_thickness = 0.2;
+  EXPECT_EQ(made_new(), 3);
   options.quality.time_budget = 0.01;
   EXPECT_EQ(made_new(), 3);
   EXPECT_EQ(made_new(), 0) << "a level made in a time is kept for the same time";
@@ -105,6 +109,54 @@ TEST(DecomposeStage, KeepsWhatIsCurrentAndRemakesWhatIsNot) {
   catalog::ShapeRecord other = shape("cube", solids::box({0, 0, 0}, {1, 1, 2}));
   shapes.store_shape(other);
   EXPECT_EQ(made_new(), 3);
+}
+
+TEST(DecomposeStage, ARefusedLevelLosesNoOther) {
+  const TemporaryFolder folder;
+  const auto box_at = [](double x) { return solids::box({x, 0, 0}, {x + 1, 1, 1}); };
+  {
+    catalog::ShapeCatalog shapes(folder / "ore.talus", catalog::ShapeCatalog::Access::read_write);
+    shapes.store_shape(shape("row", solids::together({box_at(0), box_at(5), box_at(10)})));
+    DecomposeBatchOptions options;
+    options.part_counts = {1, 3};
+    options.vertex_caps = {16, 32};
+    options.quality.time_budget = 0.02;
+    const DecomposeBatchResult result = decompose_shapes(shapes, options, [](const std::string&, std::size_t) {});
+    ASSERT_EQ(result.levels.size(), 2u);
+    ASSERT_EQ(result.failures.size(), 2u);
+    EXPECT_EQ(result.failures[1].level->vertex_cap, 32);
+    const std::string text = failure_text(result.failures[0]);
+    EXPECT_NE(text.find("row: 1 part of 16 vertices: not made: mesh: "), std::string::npos) << text;
+    EXPECT_NE(text.find("at least 3 parts"), std::string::npos) << text;
+    const catalog::LevelOfDetail level = shapes.level(*shapes.find("row"), {3, 16});
+    EXPECT_EQ(level.parts.size(), 3u);
+    EXPECT_NE(level.provenance.options.find("\"time_budget\":0.01,"), std::string::npos) << "both caps share it";
+    EXPECT_EQ(shapes.summary(*shapes.find("row")).levels.size(), 2u);
+  }
+  EXPECT_EQ(run("'" + (folder / "ore.talus").string() + "' --parts 1,3 --json", folder), 3);
+  const auto json = nlohmann::json::parse(test_support::read_bytes(folder / "out"));
+  EXPECT_EQ(json["levels"].size(), 1u);
+  EXPECT_EQ(json["failures"][0]["parts_asked"], 1);
+}
+
+TEST(DecomposeStage, OptionsThatDoNotFitAreUsageErrors) {
+  const TemporaryFolder folder;
+  { small_catalog(folder / "ore.talus"); }
+  const std::string cube = "'" + (folder / "ore.talus").string() + "' --select \"name = 'cube'\" --parts 1 ";
+  EXPECT_EQ(run(cube + "--effort 2 --time-budget 3", folder), 2);
+  EXPECT_NE(test_support::read_bytes(folder / "err").find("give one of them"), std::string::npos);
+  for (const std::string share : {"1", "-0.1", "nan", "thick"}) {
+    EXPECT_EQ(run(cube + "--smallest-thickness " + share, folder), 2) << share;
+    EXPECT_EQ(run(cube + "--smallest-volume " + share, folder), 2) << share;
+  }
+  EXPECT_EQ(run(cube + "--smallest-thickness 0.2 --smallest-volume 0.03", folder), 0);
+  catalog::ShapeCatalog shapes(folder / "ore.talus", catalog::ShapeCatalog::Access::read_only);
+  EXPECT_NE(shapes.level(*shapes.find("cube"), {1, 32})
+                .provenance.options.find("\"smallest_thickness\":0.20000000000000001,\"smallest_volume\":0.029"),
+            std::string::npos);
+  test_support::write_bytes(folder / "rock.stl", "solid");
+  EXPECT_EQ(run("'" + (folder / "rock.stl").string() + "'", folder), 3);
+  EXPECT_NE(test_support::read_bytes(folder / "err").find("rock.stl --unit mm --into ore.talus"), std::string::npos);
 }
 
 TEST(DecomposeStage, ALevelWithoutTheErrorsOfTodayIsMadeAnew) {

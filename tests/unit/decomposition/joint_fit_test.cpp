@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "decomposition/fit/bounds.h"
+#include "decomposition/fit/joint_misfit.h"
 #include "decomposition/fit/leaf_shape.h"
 #include "decomposition/fit/part_rules.h"
 #include "decomposition/fit/sections.h"

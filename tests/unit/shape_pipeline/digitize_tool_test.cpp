@@ -17,29 +17,14 @@
 #include "tests/support/sample_meshes.h"
 #include "tests/support/sample_shapes.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/tool_run.h"
 
 namespace {
 
 using namespace test_support;
 
-struct ToolRun {
-  int status = -1;
-  std::string output, errors;
-};
-
-std::string contents(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 ToolRun digitize(const TemporaryFolder& folder, const std::string& arguments) {
-  const std::string command =
-      "cd '" + folder.path().string() + "' && '" TALUS_DIGITIZE "' " + arguments + " >out 2>err";
-  ToolRun run;
-  run.status = WEXITSTATUS(std::system(command.c_str()));
-  run.output = contents(folder / "out");
-  run.errors = contents(folder / "err");
-  return run;
+  return run(folder, "'" TALUS_DIGITIZE "' " + arguments);
 }
 
 TEST(DigitizeTool, ExitStatusesOfTheCommandLine) {
@@ -52,12 +37,23 @@ TEST(DigitizeTool, ExitStatusesOfTheCommandLine) {
   EXPECT_EQ(digitize(folder, "box.stl --unit mm").status, 2);         // no catalogue
   EXPECT_EQ(digitize(folder, "--into a.talus --unit mm").status, 2);  // no scan
   const ToolRun no_unit = digitize(folder, "box.stl --into a.talus");
-  EXPECT_EQ(no_unit.status, 3);
+  EXPECT_EQ(no_unit.status, 2);
   EXPECT_NE(no_unit.errors.find("--unit"), std::string::npos);
-  EXPECT_EQ(digitize(folder, "box.stl --into a.talus --unit parsec").status, 3);
-  for (const char* size : {"1e150 km", "1e-30 mm", "0 mm"})
-    EXPECT_EQ(digitize(folder, "box.stl --into a.talus --unit mm --size '" + std::string(size) + "'").status, 3);
+  EXPECT_EQ(digitize(folder, "box.stl --into a.talus --unit parsec").status, 2);
+  for (const char* size : {"1e150 km", "1e-30 mm", "0 mm", "nan"})
+    EXPECT_EQ(digitize(folder, "box.stl --into a.talus --unit mm --size '" + std::string(size) + "'").status, 2);
   EXPECT_FALSE(std::filesystem::exists(folder / "a.talus"));
+}
+
+TEST(DigitizeTool, AScanGivenTwiceIsTakenOnce) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "scans");
+  shape_pipeline::write_stl(folder / "scans/box.stl", box_mesh({0, 0, 0}, {1, 2, 3}));
+  const ToolRun twice = digitize(folder, "scans/box.stl scans ./scans/../scans/box.stl --into a.talus --unit mm");
+  EXPECT_EQ(twice.status, 0) << twice.errors;
+  EXPECT_NE(twice.errors.find("box.stl: is given more than once; taken once"), std::string::npos) << twice.errors;
+  catalog::ShapeCatalog catalog(folder / "a.talus", catalog::ShapeCatalog::Access::read_only);
+  EXPECT_EQ(catalog.select("").size(), 1u);
 }
 
 TEST(DigitizeTool, ABatchGoesOnPastABadParticleAndIsIncremental) {
@@ -150,7 +146,7 @@ TEST(DigitizeTool, AFileOfAnotherKindIsNoCatalogue) {
   for (const std::string& bytes : {std::string(), std::string("a letter"), std::string(5000, 'x')}) {
     write_text(folder / "letter", bytes);
     EXPECT_EQ(digitize(folder, "box.stl --into letter --unit mm").status, 3) << bytes.size();
-    EXPECT_EQ(contents(folder / "letter"), bytes);
+    EXPECT_EQ(read_bytes(folder / "letter"), bytes);
   }
 }
 
@@ -158,7 +154,7 @@ TEST(DigitizeTool, AShapeThatIsThereIsRejectedNoLonger) {
   const TemporaryFolder folder;
   shape_pipeline::write_stl(folder / "box.stl", box_mesh({0, 0, 0}, {1, 2, 3}));
   ASSERT_EQ(digitize(folder, "box.stl --into ore.talus --unit mm").status, 0);
-  const std::string good = contents(folder / "box.stl");
+  const std::string good = read_bytes(folder / "box.stl");
   write_text(folder / "box.stl", good.substr(0, 300));
   ASSERT_EQ(digitize(folder, "box.stl --into ore.talus --unit mm").status, 3);
   write_text(folder / "box.stl", good);
@@ -195,8 +191,8 @@ TEST(DigitizeTool, VirtualScansToTheSameCatalogueTwice) {
     ASSERT_EQ(run.status, 0) << run.errors;
     write_text(folder / (std::string(name) + ".json"), run.output);
   }
-  EXPECT_EQ(contents(folder / "a.json"), contents(folder / "b.json"));
-  EXPECT_EQ(contents(folder / "a.talus"), contents(folder / "b.talus"));
+  EXPECT_EQ(read_bytes(folder / "a.json"), read_bytes(folder / "b.json"));
+  EXPECT_EQ(read_bytes(folder / "a.talus"), read_bytes(folder / "b.talus"));
   const catalog::ShapeCatalog catalog(folder / "a.talus", catalog::ShapeCatalog::Access::read_only);
   const catalog::ShapeRecord rock = catalog.shape(*catalog.find("rock_02"));
   EXPECT_NEAR(rock.descriptors.at("sieve_size_second_axis"), 0.03, 1e-9);
@@ -216,7 +212,7 @@ TEST(DigitizeTool, AStackBecomesNamedGrainsOnce) {
   write_bytes(folder / "ct.raw", bytes);
   write_text(folder / "ct.json", R"({"size": [50, 30, 30], "type": "uint8"})");
   EXPECT_EQ(digitize(folder, "ct.raw ct.raw box.stl --into ore.talus --voxel '12 um'").status, 2);
-  EXPECT_EQ(digitize(folder, "ct.raw --into ore.talus --voxel nan").status, 3);
+  EXPECT_EQ(digitize(folder, "ct.raw --into ore.talus --voxel nan").status, 2);
   EXPECT_EQ(digitize(folder, "ct.raw --into ore.talus --voxel 12um --unit mm").status, 2);
   const ToolRun no_voxel = digitize(folder, "ct.raw --into ore.talus");
   EXPECT_EQ(no_voxel.status, 3);

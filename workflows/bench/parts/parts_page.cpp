@@ -114,7 +114,7 @@ std::string parts_page(const std::vector<ReportedFigure>& figures, const std::ve
     const Levels levels(table, study);
     if (levels.measured().empty()) continue;
     page += "\n## " + study.shape + "\n\n" + level_table(levels) +
-            "\nChance: three beds of other places and attitudes at the cheapest level. \"Off the finest\" is the "
+            "\nChance: eight beds of other places and attitudes at the cheapest level. \"Off the finest\" is the "
             "largest difference of an answer from that of the level of least error, in standard deviations of one bed; "
             "up to " +
             fixed(kTold, 0) + " says nothing about the levels.\n\n" + spread_table(levels) + "\n" + conclusion(levels) +

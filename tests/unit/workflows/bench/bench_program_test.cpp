@@ -57,6 +57,17 @@ TEST(BenchProgram, AnUnknownCaseIsAUsageErrorWithASuggestion) {
   EXPECT_NE(ended.error.find("did you mean 'cube-face'"), std::string::npos) << ended.error;
 }
 
+TEST(BenchProgram, OptionsOfOtherBenchesAndBrokenNumbersAreRefused) {
+  const TemporaryFolder folder;
+  const Ended scans = run_bench(folder, "parts --scans X");
+  EXPECT_EQ(scans.status, 2);
+  EXPECT_NE(scans.error.find("--scans is for the bench decomposition, not for 'parts'"), std::string::npos)
+      << scans.error;
+  const Ended seeds = run_bench(folder, "decomposition --seeds 1.5");
+  EXPECT_EQ(seeds.status, 2);
+  EXPECT_NE(seeds.error.find("expected a whole number from 1 to 1000, found '1.5'"), std::string::npos) << seeds.error;
+}
+
 TEST(BenchProgram, NoNameOrAWrongOptionIsAUsageErrorAndHelpIsNot) {
   const TemporaryFolder folder;
   EXPECT_EQ(run_bench(folder, "").status, 2);
