@@ -65,7 +65,7 @@ ifeq ($(and $(SCAN),$(UNIT)),)
 study:
 	@echo 'study: state the scan and its length unit, such as make study SCAN=rock.stl UNIT=mm' >&2; exit 2
 else
-study: install $(BUILD)/CMakeCache.txt  ## How many parts a rock needs: SCAN=rock.stl UNIT=mm (about an hour); writes study/rock/parts_per_rock.md
+study: install $(BUILD)/CMakeCache.txt  ## How many parts a rock needs: SCAN=rock.stl UNIT=mm (about three hours); writes study/rock/parts_per_rock.md
 	cmake --build $(BUILD) --parallel $(JOBS) --target $(STAGES) talus-bench
 	SCAN="$(SCAN)" UNIT="$(UNIT)" BUILD=$(BUILD) workflows/studies/parts_per_rock.sh
 endif

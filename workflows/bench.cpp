@@ -52,7 +52,9 @@ struct Options {
 /// Refuses options that the bench would pass over.
 void refuse_options_of_others(const CLI::App& app, const std::string& name) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> users{
-      {"--catalog", {"levels", "parts"}}, {"--scans", {"decomposition"}}, {"--seeds", {"decomposition"}}};
+      {"--catalog", {"levels", "parts"}},
+      {"--scans", {"decomposition", "micrographs"}},
+      {"--seeds", {"decomposition"}}};
   const std::string& bench = bench_named(name).name;
   for (const auto& [option, benches] : users) {
     if (app.count(option) == 0 || std::find(benches.begin(), benches.end(), bench) != benches.end()) continue;
