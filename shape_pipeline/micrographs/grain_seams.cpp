@@ -18,7 +18,7 @@
 namespace shape_pipeline {
 namespace {
 
-// Fitted to the hand outlines of one micrograph; docs/digitising.md has the figures on another.
+// Fitted to the hand outlines of one micrograph; docs/digitising.md has the figures of two.
 constexpr double kWideNeck = 0.70;
 constexpr double kEdgeContrast = 0.24;
 constexpr double kLikeSizes = 0.70;

@@ -24,10 +24,10 @@ struct Powder {
   const char* image;
   const char* drawn;  // its name where the hand outlines were drawn
 };
-// The constants of grain_seams.cpp, micrograph.cpp and distance_basins.cpp were fitted to the first image's outlines.
+// Neither is wholly held out: docs/digitising.md says which constants were fitted to what.
 constexpr std::array<Powder, 2> kPowders{
-    {{"powder-1-fitted", "ampis_powder_Sc1Tile_001-001.png", "Sc1Tile_001-001-000_0-000.png"},
-     {"powder-2-held-out", "ampis_powder_Sc2Tile_001-001.png", "Sc2Tile_001-001-000_0-000.png"}}};
+    {{"powder-1", "ampis_powder_Sc1Tile_001-001.png", "Sc1Tile_001-001-000_0-000.png"},
+     {"powder-2", "ampis_powder_Sc2Tile_001-001.png", "Sc2Tile_001-001-000_0-000.png"}}};
 
 fs::path data_file(const fs::path& folder, const char* name) {
   if (folder.empty())
