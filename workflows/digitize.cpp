@@ -14,6 +14,7 @@
 #include "shape_pipeline/virtual_scan.h"
 #include "workflows/command_options.h"
 #include "workflows/digitize_batch.h"
+#include "workflows/micrograph_batch.h"
 #include "workflows/stack_batch.h"
 #include "workflows/stage_tool.h"
 #include "workflows/units.h"
@@ -27,6 +28,7 @@ namespace fs = std::filesystem;
 struct CommandLine {
   DigitizeBatchOptions batch;
   StackSettings stack;
+  MicrographSettings micrograph;
   fs::path virtual_scan_folder;
   int count = 4, points = 6000;
   std::uint64_t seed = 1;
@@ -48,6 +50,9 @@ constexpr char kDescription[] =
     "parts a CT stack (multi-page TIFF, NRRD, RAW with a JSON sidecar, or with --stack a folder of TIFF slices) into "
     "its\n"
     "grains, named stack_0001, ... from the largest down.\n\n"
+    "  talus digitize image.png --into powder.talus --pixel '0.5 um'\n\n"
+    "outlines the grains of a micrograph (PNG, JPEG, BMP, one-page TIFF): tables, outlines and overlay go to\n"
+    "powder_outlines/, and a population of solids whose silhouettes match them to the catalogue.\n\n"
     "  talus digitize --make-virtual-scans scans/ --count 4 --seed 1\n\n"
     "writes scans of generated rocks with noise and gaps, and their truth (use --unit m --truth scans/truth.json).";
 
@@ -73,6 +78,22 @@ void declare_stack_options(CLI::App& app, StackSettings& stack) {
   app.add_flag("--keep-cavities", stack.keeps_cavities, "of a stack's grains, as inner surfaces; else they are filled");
 }
 
+void declare_micrograph_options(CLI::App& app, MicrographSettings& micrograph) {
+  app.add_option("--pixel", micrograph.pixel, "side of a pixel of a micrograph, such as '0.5 um'");
+  app.add_option("--scale-bar", micrograph.scale_bar,
+                 "what the bar in the data strip of a micrograph stands for, such as '100 um'");
+  app.add_flag("--dark-grains", micrograph.has_dark_grains, "of a micrograph, on a bright background");
+  app.add_option("--least-diameter", micrograph.least_diameter, "pixels of a micrograph's smallest grain")
+      ->check(CLI::Range(3.0, 10000.0))
+      ->capture_default_str();
+  app.add_option("--out", micrograph.out, "folder for tables of a micrograph; else CATALOGUE_outlines");
+  add_whole_number(app, "--population", micrograph.population, {0, 100000},
+                   "solids made to look like a micrograph's grains; 0: none");
+  app.add_option("--third-axis", micrograph.third_axis,
+                 "S/I of these solids, which no micrograph shows: drawn (like I/L) or a ratio")
+      ->capture_default_str();
+}
+
 void declare_options(CLI::App& app, CommandLine& line) {
   app.add_option("INPUT", line.batch.inputs, "scan files, or folders of them");
   app.add_option("--into", line.batch.catalog_path, "catalogue file; made if it is missing");
@@ -96,10 +117,11 @@ void declare_options(CLI::App& app, CommandLine& line) {
   app.add_option("--truth", line.batch.truth_path,
                  "JSON of known volumes and areas: checks the error of each scan named in it");
   declare_stack_options(app, line.stack);
+  declare_micrograph_options(app, line.micrograph);
   app.add_flag("--json", line.is_json, "one JSON object a scan on stdout");
   app.add_option("--make-virtual-scans", line.virtual_scan_folder, "write virtual scans into this folder and stop");
   app.add_option("--count", line.count, "virtual scans")->check(CLI::Range(1, 10000))->capture_default_str();
-  add_seed(app, "--seed", line.seed, "seed of the virtual scans");
+  add_seed(app, "--seed", line.seed, "seed of the virtual scans, or of a population");
   app.add_option("--points", line.points, "points of a virtual scan")
       ->check(CLI::Range(100, 10000000))
       ->capture_default_str();
@@ -181,6 +203,11 @@ int run_batch(const CommandLine& line, Batch batch) {
 int digitize_batch(const CommandLine& line) {
   if (line.batch.inputs.empty())
     throw catalog::UsageError("no scan named; give files or folders, or --make-virtual-scans DIR");
+  if (are_micrographs(line.batch, line.micrograph)) {
+    MicrographSettings settings = line.micrograph;
+    settings.seed = line.seed;
+    return run_batch(line, MicrographBatch(line.batch, settings));
+  }
   if (line.batch.catalog_path.empty()) throw catalog::UsageError("no catalogue named; add --into ore.talus");
   if (are_stacks(line.batch, line.stack)) return run_batch(line, StackBatch(line.batch, line.stack));
   return run_batch(line, DigitizeBatch(line.batch));

@@ -24,8 +24,9 @@ using Generator = std::mt19937_64;
 std::size_t below(Generator& random, std::size_t count) { return static_cast<std::size_t>(random() % count); }
 
 /// What files lie with: counts, signs, ends of lines, numbers that are none.
-const std::vector<std::string> kWords{"0",   "-1",  "1e308", "nan",  "inf", "4294967295", "2147483648", "99999999999",
-                                      "\n", " ",   "\r\n",  "face", "end", "binary",     "list",       std::string(8, '\0')};
+const std::vector<std::string> kWords{
+    "0",  "-1", "1e308", "nan",  "inf", "4294967295", "2147483648", "99999999999",
+    "\n", " ",  "\r\n",  "face", "end", "binary",     "list",       std::string(8, '\0')};
 
 std::string mutated(std::string bytes, const std::vector<std::string>& seeds, Generator& random) {
   for (std::size_t change = 1 + below(random, 4); change > 0 && !bytes.empty(); --change) {
