@@ -94,7 +94,8 @@ decomposition: install $(BUILD)/CMakeCache.txt  ## Decomposition of real scans a
 endif
 
 FUZZ_SECONDS ?= 180
-fuzz: install  ## Readers of scans under libFuzzer with sanitizers (clang); FUZZ_SECONDS=180
+fuzz: install  ## Readers of scans under libFuzzer with sanitizers; needs clang++; FUZZ_SECONDS=180
+	@command -v clang++ > /dev/null || { echo 'fuzz: needs clang++; install it with apt-get install clang' >&2; exit 2; }
 	cmake -S . -B build-fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DTALUS_LIBFUZZER=ON -DBUILD_DEM=OFF
 	cmake --build build-fuzz --parallel $(JOBS) --target reader_fuzz write_seeds
 	build-fuzz/tests/fuzz/write_seeds build-fuzz/seeds && mkdir -p build-fuzz/corpus
