@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "workflows/bench/parts/rock_bed.h"
 #include "workflows/bench/report_page.h"
@@ -76,19 +77,35 @@ std::string spread_table(const Levels& levels) {
   return aligned_markdown(table);
 }
 
-std::string conclusion(const Levels& levels) {
-  const PartsStudy::Row* cheapest = nullptr;
-  for (const PartsStudy::Row& row : levels.measured()) {
-    const double distance = levels.distance(row), time = levels.step_time(row);
-    if (std::isnan(distance) || distance > kTold) continue;
-    if (!cheapest || time < levels.step_time(*cheapest)) cheapest = &row;
+/// The cheapest of the levels that, with all of less error, cannot be told from the finest; null if nothing is known.
+const PartsStudy::Row* cheapest_untold(const Levels& levels) {
+  std::vector<PartsStudy::Row> rows = levels.measured();
+  std::stable_sort(rows.begin(), rows.end(), [&](const PartsStudy::Row& a, const PartsStudy::Row& b) {
+    return levels.error(a) < levels.error(b);
+  });
+  std::string name;
+  double least = std::numeric_limits<double>::infinity();
+  for (const PartsStudy::Row& row : rows) {
+    // A level that happens to answer alike while better ones do not is no better than these.
+    if (!(levels.distance(row) <= kTold)) break;
+    if (levels.step_time(row) >= least) continue;
+    least = levels.step_time(row);
+    name = row.case_name;
   }
+  const auto found = std::find_if(levels.measured().begin(), levels.measured().end(),
+                                  [&](const PartsStudy::Row& row) { return row.case_name == name; });
+  return found == levels.measured().end() ? nullptr : &*found;
+}
+
+std::string conclusion(const Levels& levels) {
+  const PartsStudy::Row* const cheapest = cheapest_untold(levels);
   if (!cheapest) return "The figures of the finest level or of chance are missing: nothing can be said yet.";
   const PartsStudy::Row& finest = levels.finest();
   if (cheapest->case_name == finest.case_name)
     return "Every cheaper level can be told from the finest one (" + finest.level + ") by one bed.";
-  return "The cheapest level that one bed does not tell from the finest (" + finest.level + ") is **" +
-         cheapest->level + "**, error " + fixed(100 * levels.error(*cheapest), 1) + " %: a step of it takes " +
+  return "The cheapest level that one bed does not tell from the finest (" + finest.level +
+         "), nor any level of less error, is **" + cheapest->level + "**, error " +
+         fixed(100 * levels.error(*cheapest), 1) + " %: a step of it takes " +
          fixed(levels.step_time(*cheapest) / levels.step_time(finest), 2) + " of the time.";
 }
 

@@ -44,9 +44,21 @@ TEST(PartsPage, NamesTheCheapestLevelThatChanceHidesFromTheFinest) {
   Figures figures = three_levels();
   add_spread(figures);
   const std::string page = parts_page(figures, {study()});
-  EXPECT_NE(page.find("from the finest (32 x 16) is **4 x 16**, error 7.0 %: a step of it takes 0.25 of the time"),
+  EXPECT_NE(page.find("from the finest (32 x 16), nor any level of less error, is **4 x 16**, error 7.0 %: a step of "
+                      "it takes 0.25 of the time"),
             std::string::npos)
       << page;
+}
+
+TEST(PartsPage, ALevelThatAgreesByChanceWhereBetterOnesDoNotIsNotNamed) {
+  Figures figures;
+  add_level(figures, "rock-16-1", 0.10, 0.551, 5);  // half a standard deviation off
+  add_level(figures, "rock-16-4", 0.07, 0.560, 10);
+  add_level(figures, "rock-16-32", 0.03, 0.550, 40);
+  add_spread(figures);
+  const std::string page = parts_page(figures, {study()});
+  EXPECT_EQ(page.find("**1 x 16**"), std::string::npos) << page;
+  EXPECT_NE(page.find("Every cheaper level can be told from the finest one (32 x 16)"), std::string::npos) << page;
 }
 
 TEST(PartsPage, SaysWhereEveryLevelDiffers) {
