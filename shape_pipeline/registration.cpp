@@ -20,11 +20,11 @@ constexpr int kNormalNeighbours = 18;         // points of a tangent plane: less
 constexpr std::size_t kFinePoints = 6000;     // of a part, for closest points
 constexpr std::size_t kTargetPoints = 30000;  // that they are sought among
 constexpr std::size_t kTriedAttitudes = 4;
-constexpr double kLargestSizeRatio = 5;       // of two parts' diagonals: parts of one particle differ by less
+constexpr double kLargestSizeRatio = 5;  // of two parts' diagonals: parts of one particle differ by less
 constexpr double kLeastOverlap = 0.15;
 constexpr double kLeastConsistency = 0.8;
-constexpr int kRounds = 3;                    // of each part against all others
-constexpr double kPairOverlap = 0.02;         // below, two parts do not meet
+constexpr int kRounds = 3;             // of each part against all others
+constexpr double kPairOverlap = 0.02;  // below, two parts do not meet
 
 Point mean_point(const std::vector<Point>& points) {
   Point sum{};

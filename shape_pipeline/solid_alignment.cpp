@@ -107,11 +107,13 @@ SolidAlignment align_solids(const catalog::TriangleMesh& moving, const catalog::
   const std::vector<double> distances = distances_to_surface(moved(result.motion, many).points, fixed);
   const double mean = distance_statistics(distances, diagonal).mean;
   char line[160];
-  std::snprintf(line, sizeof line, "mean distance of the aligned surfaces is %.3f %% of the diagonal, expected at most %.0f %%",
+  std::snprintf(line, sizeof line,
+                "mean distance of the aligned surfaces is %.3f %% of the diagonal, expected at most %.0f %%",
                 100 * mean, 100 * kLargestDistance);
   result.checks.push_back({"alignment_distance", mean <= kLargestDistance, mean, line});
-  std::snprintf(line, sizeof line, "the next-best attitude has %.2f times the distance of the one taken, expected at least %.1f",
-                margin, kLeastMargin);
+  std::snprintf(line, sizeof line,
+                "the next-best attitude has %.2f times the distance of the one taken, expected at least %.1f", margin,
+                kLeastMargin);
   result.checks.push_back({"attitude_margin", next == attitudes.end() || margin >= kLeastMargin, margin, line});
   return result;
 }

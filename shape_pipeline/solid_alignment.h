@@ -20,10 +20,10 @@ SolidAlignment align_solids(const catalog::TriangleMesh& moving, const catalog::
 
 /// How one shape lies about another.
 struct ShapeDifference {
-  std::vector<double> distances;          // of each vertex of the moved shape, positive outside the fixed one [m]
-  catalog::SurfaceDistance from_moved;    // points of the moved surface to the fixed one / diagonal of the fixed one
-  catalog::SurfaceDistance from_fixed;    // points of the fixed surface to the moved one / the same
-  double mean_signed = 0;                 // of the moved surface, positive outside [m]
+  std::vector<double> distances;        // of each vertex of the moved shape, positive outside the fixed one [m]
+  catalog::SurfaceDistance from_moved;  // points of the moved surface to the fixed one / diagonal of the fixed one
+  catalog::SurfaceDistance from_fixed;  // points of the fixed surface to the moved one / the same
+  double mean_signed = 0;               // of the moved surface, positive outside [m]
 };
 
 /// Of two closed solids in one frame.

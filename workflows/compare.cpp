@@ -40,8 +40,8 @@ constexpr char kDescription[] =
     "frame of the first's principal axes, with its distance from the first at each vertex, positive outside. The exit\n"
     "status is 4 if a check did not pass, of a capture or of the alignment.";
 
-constexpr int kRoughnessDegree = 10;    // detail finer than R / 10 is roughness, R the volume-equivalent radius
-constexpr double kLargestRatio = 5;     // of the sizes of two captures of one particle
+constexpr int kRoughnessDegree = 10;  // detail finer than R / 10 is roughness, R the volume-equivalent radius
+constexpr double kLargestRatio = 5;   // of the sizes of two captures of one particle
 
 struct Row {
   std::string name;
@@ -66,9 +66,10 @@ catalog::ShapeRecord capture(const fs::path& scan, const std::string& option, co
   return shape_pipeline::digitize(scan, options);
 }
 
-void refuse_other_units(const CommandLine& line, const catalog::ShapeRecord& first, const catalog::ShapeRecord& second) {
-  const double ratio = shape_pipeline::bounding_diagonal(second.mesh.vertices) /
-                       shape_pipeline::bounding_diagonal(first.mesh.vertices);
+void refuse_other_units(const CommandLine& line, const catalog::ShapeRecord& first,
+                        const catalog::ShapeRecord& second) {
+  const double ratio =
+      shape_pipeline::bounding_diagonal(second.mesh.vertices) / shape_pipeline::bounding_diagonal(first.mesh.vertices);
   if (ratio <= kLargestRatio && ratio >= 1 / kLargestRatio) return;
   char text[80];
   std::snprintf(text, sizeof text, ": is %.4g times as large as ", ratio);
@@ -138,7 +139,8 @@ int compare(const CommandLine& line) {
   const shape_pipeline::SolidAlignment alignment = shape_pipeline::align_solids(second.mesh, first.mesh);
   const catalog::TriangleMesh aligned = shape_pipeline::moved(alignment.motion, second.mesh);
 
-  Comparison comparison{rows(first, second), alignment.checks, {}, shape_pipeline::shape_difference(aligned, first.mesh)};
+  Comparison comparison{
+      rows(first, second), alignment.checks, {}, shape_pipeline::shape_difference(aligned, first.mesh)};
   const auto collect = [&](const std::string& name, const std::vector<catalog::Check>& checks) {
     for (const catalog::Check& check : checks)
       if (!check.passed) comparison.failed.push_back(name + ": " + check.name);

@@ -14,16 +14,16 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr std::size_t kPoints = 1200;    // enough for facets and edges, few enough for thousands of trials
-constexpr double kFeatureRadius = 5;     // / spacing: some eighty points
-constexpr int kMatches = 8;              // points of like feature that each point may stand for
-constexpr int kTrials = 60000;           // pairs of points drawn
-constexpr double kLeastBase = 0.2;       // distance of the two points / diagonal: shorter, the attitude is loose
-constexpr double kDistanceSlack = 1.5;   // of the two pairs' distances / spacing
-constexpr double kCosineSlack = 0.2;     // of their normals' cosines: what noise and curvature turn them by
+constexpr std::size_t kPoints = 1200;   // enough for facets and edges, few enough for thousands of trials
+constexpr double kFeatureRadius = 5;    // / spacing: some eighty points
+constexpr int kMatches = 8;             // points of like feature that each point may stand for
+constexpr int kTrials = 60000;          // pairs of points drawn
+constexpr double kLeastBase = 0.2;      // distance of the two points / diagonal: shorter, the attitude is loose
+constexpr double kDistanceSlack = 1.5;  // of the two pairs' distances / spacing
+constexpr double kCosineSlack = 0.2;    // of their normals' cosines: what noise and curvature turn them by
 constexpr std::size_t kScorePoints = 150;
-constexpr std::size_t kKept = 24;        // attitudes that are refined
-constexpr double kSameAttitude = 0.2;    // [rad] within which two are one
+constexpr std::size_t kKept = 24;      // attitudes that are refined
+constexpr double kSameAttitude = 0.2;  // [rad] within which two are one
 constexpr std::size_t kRefinePoints = 400;
 
 PointCloud thinned(PointCloud cloud, std::size_t limit) {
@@ -132,9 +132,7 @@ std::vector<Attitude> coarse_attitudes(const FeaturedCloud& moving, const Featur
   const double spacing = std::max(moving.target.spacing, fixed.target.spacing);
   const double base = kLeastBase * bounding_diagonal(cloud.points);
   const PointCloud few = thinned(cloud, kScorePoints), more = thinned(cloud, kRefinePoints);
-  const auto draw = [&](std::size_t count) {
-    return static_cast<int>(random.uniform(0, static_cast<double>(count)));
-  };
+  const auto draw = [&](std::size_t count) { return static_cast<int>(random.uniform(0, static_cast<double>(count))); };
   std::vector<ScoredMotion> motions;
   for (int trial = 0; trial < kTrials; ++trial) {
     const int first = draw(alike.size()), second = draw(alike.size());

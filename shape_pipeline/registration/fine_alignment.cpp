@@ -68,8 +68,7 @@ RigidMotion step(const PointCloud& moving, const AlignmentTarget& target, const 
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) motion.rotation[r][c] = rotation(r, c);
   }
-  motion.shift =
-      add(subtract(centre, turned(motion, centre)), {solution[3], solution[4], solution[5]});
+  motion.shift = add(subtract(centre, turned(motion, centre)), {solution[3], solution[4], solution[5]});
   return motion;
 }
 

@@ -11,7 +11,7 @@ namespace shape_pipeline {
 struct AlignmentTarget {
   explicit AlignmentTarget(PointCloud oriented);
 
-  PointCloud cloud;    // with outward normals
+  PointCloud cloud;  // with outward normals
   NearestPoint nearest;
   double spacing = 0;  // average distance to the six nearest points [m]
   double noise = 0;    // standard deviation of the points about the planes through their neighbours, robust [m]
