@@ -7,7 +7,7 @@ CUDA_ARCHITECTURES ?= 90
 NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
 STAGES := talus talus-digitize talus-generate talus-family talus-decompose talus-catalog talus-simulate talus-post
 
-.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy study gpu-check exact-pairs large-mesh decomposition format check-format clean
+.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy study gpu-check exact-pairs large-mesh fuzz decomposition format check-format clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -65,7 +65,7 @@ ifeq ($(and $(SCAN),$(UNIT)),)
 study:
 	@echo 'study: state the scan and its length unit, such as make study SCAN=rock.stl UNIT=mm' >&2; exit 2
 else
-study: install $(BUILD)/CMakeCache.txt  ## How many parts a rock needs: SCAN=rock.stl UNIT=mm (about an hour); writes study/rock/parts_per_rock.md
+study: install $(BUILD)/CMakeCache.txt  ## How many parts a rock needs: SCAN=rock.stl UNIT=mm (about three hours); writes study/rock/parts_per_rock.md
 	cmake --build $(BUILD) --parallel $(JOBS) --target $(STAGES) talus-bench
 	SCAN="$(SCAN)" UNIT="$(UNIT)" BUILD=$(BUILD) workflows/studies/parts_per_rock.sh
 endif
@@ -92,6 +92,14 @@ decomposition: install $(BUILD)/CMakeCache.txt  ## Decomposition of real scans a
 	cmake --build $(BUILD) --parallel $(JOBS) --target talus talus-bench
 	$(BUILD)/bin/talus bench decomposition --scans "$(SCANS)" --out docs/results || [ $$? -eq 4 ]
 endif
+
+FUZZ_SECONDS ?= 180
+fuzz: install  ## Readers of scans under libFuzzer with sanitizers (clang); FUZZ_SECONDS=180
+	cmake -S . -B build-fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DTALUS_LIBFUZZER=ON -DBUILD_DEM=OFF
+	cmake --build build-fuzz --parallel $(JOBS) --target reader_fuzz write_seeds
+	build-fuzz/tests/fuzz/write_seeds build-fuzz/seeds && mkdir -p build-fuzz/corpus
+	build-fuzz/tests/reader_fuzz -max_total_time=$(FUZZ_SECONDS) -rss_limit_mb=3000 -timeout=20 -max_len=20000 \
+	  build-fuzz/corpus build-fuzz/seeds
 
 format:  ## Format every source file
 	git ls-files '*.cpp' '*.h' | xargs clang-format -i

@@ -37,16 +37,16 @@ double diameter_in_voxels(const LabelledGrain& grain) {
   return std::cbrt(6 * static_cast<double>(grain.voxels) / std::numbers::pi);
 }
 
-PartedStack part_stack(const std::filesystem::path& path, const StackOptions& options) {
+PartedStack part_stack(GreyVolume volume, const std::string& name, const StackOptions& options) {
   PartedStack stack;
-  stack.volume = read_stack(path, {options.voxel_size, options.memory_limit});
+  stack.volume = std::move(volume);
   if (options.denoising == StackDenoising::median) median_filter(stack.volume);
   if (options.denoising == StackDenoising::gaussian) gaussian_filter(stack.volume, options.gaussian_sigma);
   stack.classes = options.threshold ? classes_at(stack.volume, *options.threshold - stack.volume.offset)
                                     : plateau_classes(stack.volume);
   if (stack.classes.separability == 0)
     refuse_file(
-        path, "",
+        name, "",
         options.threshold ? "no grey value lies on the one side of the threshold" : "all voxels are equally grey",
         options.threshold ? "state another --threshold, in the file's grey values" : "export the stack again");
   stack.labels = separate_grains(stack.volume, stack.classes.threshold, {options.neck_ratio, 0.75});
@@ -193,13 +193,18 @@ std::vector<std::filesystem::path> stack_sources(const std::filesystem::path& pa
 
 StackSummary digitize_stack(const std::filesystem::path& path, const StackOptions& options,
                             const std::function<void(StackGrain&&)>& take) {
-  const PartedStack stack = part_stack(path, options);
+  return digitize_stack(read_stack(path, {options.voxel_size, options.memory_limit}), path.string(), options, take);
+}
+
+StackSummary digitize_stack(GreyVolume volume, const std::string& name, const StackOptions& options,
+                            const std::function<void(StackGrain&&)>& take) {
+  const PartedStack stack = part_stack(std::move(volume), name, options);
   StackSummary summary;
   summary.voxel_size = stack.volume.grid.spacing;
   summary.threshold = stack.classes.threshold + stack.volume.offset;
   const std::vector<std::size_t> grains = whole_grains(stack.labels, summary);
   if (grains.empty())
-    refuse_file(path, "",
+    refuse_file(name, "",
                 "no whole grain above the threshold of " + std::to_string(summary.threshold) + " (" +
                     std::to_string(summary.at_border) + " cut by the border, " + std::to_string(summary.specks) +
                     " specks)",

@@ -11,6 +11,7 @@
 
 #include "catalog/shape_record.h"
 #include "shape_pipeline/mesh_remeshing.h"
+#include "shape_pipeline/volumes/grey_volume.h"
 
 namespace shape_pipeline {
 
@@ -48,6 +49,10 @@ struct StackSummary {
 /// below the size of a voxel, checked and described. Bright is grain. Needs the grey values and about 5 bytes a voxel
 /// more. Throws InputError, the file named, for what cannot be read, is constant, or holds no whole grain.
 StackSummary digitize_stack(const std::filesystem::path& path, const StackOptions& options,
+                            const std::function<void(StackGrain&&)>& take);
+
+/// The same of a tomogram in memory, which messages call `name`.
+StackSummary digitize_stack(GreyVolume volume, const std::string& name, const StackOptions& options,
                             const std::function<void(StackGrain&&)>& take);
 
 /// True for the endings of stacks that no other scan has: tif, tiff, nrrd, raw.

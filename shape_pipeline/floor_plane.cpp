@@ -14,15 +14,15 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr int kTrials = 600;               // a plane of 15 % of the points is drawn twice
+constexpr int kTrials = 600;  // a plane of 15 % of the points is drawn twice
 constexpr std::size_t kScoredPoints = 2500;
-constexpr double kFirstBand = 0.004;       // half thickness / diagonal, before the noise is known
-constexpr double kBandDeviations = 5;      // of the points taken for the plane's: one of a million strays beyond
+constexpr double kFirstBand = 0.004;   // half thickness / diagonal, before the noise is known
+constexpr double kBandDeviations = 5;  // of the points taken for the plane's: one of a million strays beyond
 constexpr int kRefinements = 4;
-constexpr double kLeastShare = 0.1;        // of the points: fewer are a facet
-constexpr double kLargestOtherSide = 0.01; // of the rest: strays below the floor
-constexpr double kLeastReach = 1;          // of the plane's points about the rest's middle / that of the rest
-constexpr std::size_t kLeastLeft = 50;     // points that may be a particle
+constexpr double kLeastShare = 0.1;         // of the points: fewer are a facet
+constexpr double kLargestOtherSide = 0.01;  // of the rest: strays below the floor
+constexpr double kLeastReach = 1;           // of the plane's points about the rest's middle / that of the rest
+constexpr std::size_t kLeastLeft = 50;      // points that may be a particle
 
 struct Plane {
   Point normal{};
@@ -157,7 +157,8 @@ ClearedCloud without_floor(const PointCloud& cloud, const std::string& name) {
   const Sides found = sides(cloud.points, *plane, band);
   const Point middle = mean_point(cleared.cloud.points);
   if (found.above < kLeastLeft) refuse(name, "nothing stands on the plane: " + std::to_string(found.above) + " points");
-  if (!found.has_one_side() || static_cast<double>(found.within) < kLeastShare * static_cast<double>(cloud.points.size()) ||
+  if (!found.has_one_side() ||
+      static_cast<double>(found.within) < kLeastShare * static_cast<double>(cloud.points.size()) ||
       reach_along(floor, *plane, middle) < kLeastReach * reach_along(cleared.cloud.points, *plane, middle))
     refuse(name, "no plane with a tenth of the points has all others on one side and reaches past them");
 

@@ -11,10 +11,10 @@ namespace shape_pipeline {
 
 /// A cloud without the turntable or floor that its grains stand on.
 struct ClearedCloud {
-  PointCloud cloud;         // what stands above the plane
-  catalog::Point normal{};  // of the plane, towards the grains
-  double offset = 0;        // of the plane: dot(normal, point) on it [m]
-  double noise = 0;         // standard deviation of its points [m]
+  PointCloud cloud;                    // what stands above the plane
+  catalog::Point normal{};             // of the plane, towards the grains
+  double offset = 0;                   // of the plane: dot(normal, point) on it [m]
+  double noise = 0;                    // standard deviation of its points [m]
   std::vector<catalog::Check> checks;  // "floor_points", "floor_noise", "floor_beneath"
 };
 

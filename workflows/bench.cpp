@@ -52,12 +52,15 @@ struct Options {
 /// Refuses options that the bench would pass over.
 void refuse_options_of_others(const CLI::App& app, const std::string& name) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> users{
-      {"--catalog", {"levels", "parts"}}, {"--scans", {"decomposition"}}, {"--seeds", {"decomposition"}}};
+      {"--catalog", {"levels", "parts"}},
+      {"--scans", {"decomposition", "digitize", "micrographs"}},
+      {"--seeds", {"decomposition"}}};
   const std::string& bench = bench_named(name).name;
   for (const auto& [option, benches] : users) {
     if (app.count(option) == 0 || std::find(benches.begin(), benches.end(), bench) != benches.end()) continue;
     std::string names;
-    for (const std::string& user : benches) names += (names.empty() ? "" : " and ") + user;
+    for (const std::string& user : benches)
+      names += (names.empty() ? "" : user == benches.back() ? " and " : ", ") + user;
     throw catalog::UsageError(option + " is for the bench " + names + ", not for '" + bench + "'; leave it out");
   }
 }
@@ -73,7 +76,7 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
   add_number_list(app, "--threads", options.threads, {1, 1000000},
                   "thread counts to compare, such as 1,2; default: the engine's own choice");
   app.add_option("--catalog", options.catalogue, "shape catalogue, for the benches levels and parts");
-  app.add_option("--scans", options.scans, "folder of scans, for the bench decomposition");
+  app.add_option("--scans", options.scans, "folder of scans, for the benches decomposition, digitize and micrographs");
   add_whole_number(app, "--seeds", options.seeds, {1, 1000}, "searches of each level, for the bench decomposition");
   app.add_flag("--resume", options.resumes, "measure only the cases that an earlier run with this --json has not");
   app.add_flag("--list", options.is_list, "name the benches and their cases");

@@ -12,8 +12,10 @@
 
 #include "catalog/input_error.h"
 #include "shape_pipeline/virtual_scan.h"
+#include "workflows/cloud_batch.h"
 #include "workflows/command_options.h"
 #include "workflows/digitize_batch.h"
+#include "workflows/micrograph_batch.h"
 #include "workflows/stack_batch.h"
 #include "workflows/stage_tool.h"
 #include "workflows/units.h"
@@ -26,7 +28,9 @@ namespace fs = std::filesystem;
 /// The command line as typed.
 struct CommandLine {
   DigitizeBatchOptions batch;
+  CloudSettings cloud;
   StackSettings stack;
+  MicrographSettings micrograph;
   fs::path virtual_scan_folder;
   int count = 4, points = 6000;
   std::uint64_t seed = 1;
@@ -44,12 +48,26 @@ constexpr char kDescription[] =
     "reason, and the batch goes on; the exit status is then 3. It is 4 if all scans could be used, but a shape has a "
     "check that did\n"
     "not pass: such shapes are stored, and named.\n\n"
+    "  talus digitize side1.ply side2.ply side3.ply --register --name rock --into ore.talus --unit mm\n\n"
+    "brings partial scans of one particle together. --remove-plane takes the floor or turntable out of a cloud,\n"
+    "--separate makes each grain on it a shape of its own, named plate_01, ... from that of most points down.\n\n"
     "  talus digitize stack.tif --into ore.talus --voxel '12 um'\n\n"
     "parts a CT stack (multi-page TIFF, NRRD, RAW with a JSON sidecar, or with --stack a folder of TIFF slices) into "
     "its\n"
     "grains, named stack_0001, ... from the largest down.\n\n"
+    "  talus digitize image.png --into powder.talus --pixel '0.5 um'\n\n"
+    "outlines the grains of a micrograph (PNG, JPEG, BMP, one-page TIFF): tables, outlines and overlay go to\n"
+    "powder_outlines/, and a population of solids whose silhouettes match them to the catalogue.\n\n"
     "  talus digitize --make-virtual-scans scans/ --count 4 --seed 1\n\n"
     "writes scans of generated rocks with noise and gaps, and their truth (use --unit m --truth scans/truth.json).";
+
+void declare_cloud_options(CLI::App& app, CloudSettings& cloud) {
+  app.add_flag("--register", cloud.is_registered, "the clouds are partial scans of one particle");
+  app.add_flag("--remove-plane", cloud.removes_plane, "of a cloud: the floor or turntable that it stands on");
+  app.add_flag("--separate", cloud.is_separated, "of a cloud: grains that lie apart");
+  add_whole_number(app, "--grain-points", cloud.grain_points, {50, 10000000},
+                   "of a separated grain, at least; those of fewer are rejected");
+}
 
 void declare_stack_options(CLI::App& app, StackSettings& stack) {
   app.add_flag("--stack", stack.is_asked_for, "each folder is one CT stack, a TIFF a slice");
@@ -71,6 +89,22 @@ void declare_stack_options(CLI::App& app, StackSettings& stack) {
       ->check(CLI::Range(4.0, 10000.0))
       ->capture_default_str();
   app.add_flag("--keep-cavities", stack.keeps_cavities, "of a stack's grains, as inner surfaces; else they are filled");
+}
+
+void declare_micrograph_options(CLI::App& app, MicrographSettings& micrograph) {
+  app.add_option("--pixel", micrograph.pixel, "side of a pixel of a micrograph, such as '0.5 um'");
+  app.add_option("--scale-bar", micrograph.scale_bar,
+                 "what the bar in the data strip of a micrograph stands for, such as '100 um'");
+  app.add_flag("--dark-grains", micrograph.has_dark_grains, "of a micrograph, on a bright background");
+  app.add_option("--least-diameter", micrograph.least_diameter, "pixels of a micrograph's smallest grain")
+      ->check(CLI::Range(3.0, 10000.0))
+      ->capture_default_str();
+  app.add_option("--out", micrograph.out, "folder for tables of a micrograph; else CATALOGUE_outlines");
+  add_whole_number(app, "--population", micrograph.population, {0, 100000},
+                   "solids made to look like a micrograph's grains; 0: none");
+  app.add_option("--third-axis", micrograph.third_axis,
+                 "S/I of these solids, which no micrograph shows: drawn (like I/L) or a ratio")
+      ->capture_default_str();
 }
 
 void declare_options(CLI::App& app, CommandLine& line) {
@@ -95,11 +129,13 @@ void declare_options(CLI::App& app, CommandLine& line) {
                "drop points that are no numbers instead of refusing the cloud");
   app.add_option("--truth", line.batch.truth_path,
                  "JSON of known volumes and areas: checks the error of each scan named in it");
+  declare_cloud_options(app, line.cloud);
   declare_stack_options(app, line.stack);
+  declare_micrograph_options(app, line.micrograph);
   app.add_flag("--json", line.is_json, "one JSON object a scan on stdout");
   app.add_option("--make-virtual-scans", line.virtual_scan_folder, "write virtual scans into this folder and stop");
   app.add_option("--count", line.count, "virtual scans")->check(CLI::Range(1, 10000))->capture_default_str();
-  add_seed(app, "--seed", line.seed, "seed of the virtual scans");
+  add_seed(app, "--seed", line.seed, "seed of the virtual scans, or of a population");
   app.add_option("--points", line.points, "points of a virtual scan")
       ->check(CLI::Range(100, 10000000))
       ->capture_default_str();
@@ -181,6 +217,15 @@ int run_batch(const CommandLine& line, Batch batch) {
 int digitize_batch(const CommandLine& line) {
   if (line.batch.inputs.empty())
     throw catalog::UsageError("no scan named; give files or folders, or --make-virtual-scans DIR");
+  if (line.cloud.are_given()) {
+    if (line.batch.catalog_path.empty()) throw catalog::UsageError("no catalogue named; add --into ore.talus");
+    return run_batch(line, CloudBatch(line.batch, line.cloud));
+  }
+  if (are_micrographs(line.batch, line.micrograph)) {
+    MicrographSettings settings = line.micrograph;
+    settings.seed = line.seed;
+    return run_batch(line, MicrographBatch(line.batch, settings));
+  }
   if (line.batch.catalog_path.empty()) throw catalog::UsageError("no catalogue named; add --into ore.talus");
   if (are_stacks(line.batch, line.stack)) return run_batch(line, StackBatch(line.batch, line.stack));
   return run_batch(line, DigitizeBatch(line.batch));

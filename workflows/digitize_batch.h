@@ -36,6 +36,12 @@ struct DigitizedScan {
   bool is_bad() const { return status == "rejected" || status == "missing"; }
 };
 
+/// What the scans are digitised with. Throws UsageError for settings that cannot be.
+shape_pipeline::DigitizationOptions digitization_options(const ScanSettings& settings);
+
+/// Everything that changes the result, as JSON; part of the test whether a scan is done already.
+std::string scan_options_text(const ScanSettings& settings, const std::optional<shape_pipeline::ScanTruth>& truth);
+
 /// The catalogue to fill, made where it is missing. Throws InputError for an empty file of that name.
 catalog::ShapeCatalog open_catalog(const std::filesystem::path& path);
 

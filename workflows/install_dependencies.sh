@@ -11,7 +11,7 @@ engine_packages=(
   nlohmann-json3-dev libcli11-dev
 )
 other_packages=(
-  libpcl-dev libcgal-dev libeigen3-dev libassimp-dev libtiff-dev libvtk9-dev
+  libpcl-dev libcgal-dev libeigen3-dev libassimp-dev libtiff-dev libvtk9-dev libopencv-dev
   xvfb xauth clang-format file
 )
 

@@ -94,6 +94,9 @@ Section read_json(const std::filesystem::path& file) {
   } catch (const json::parse_error& error) {
     throw catalog::InputError(file.string() + ": byte " + std::to_string(error.byte) +
                               ": not valid JSON; run the simulation again or remove the file");
+  } catch (const json::out_of_range&) {
+    throw catalog::InputError(file.string() +
+                              ": holds a number that is too large; run the simulation again or remove the file");
   }
 }
 

@@ -28,7 +28,14 @@ void check_coordinates(const std::filesystem::path& path, const TextRows& rows, 
   }
 }
 
+/// What reads the file afterwards ends its strings at a zero byte.
+void check_text(const std::filesystem::path& path, std::string_view bytes) {
+  if (const std::size_t zero = bytes.find('\0'); zero != std::string_view::npos)
+    refuse_file(path, "byte " + std::to_string(zero), "a zero byte, where text is expected", kExportAgain);
+}
+
 void check_ascii_stl(const std::filesystem::path& path, std::string_view bytes) {
+  check_text(path, bytes);
   if (bytes.rfind("endsolid") == std::string_view::npos)
     refuse_file(path, "end of file", "'endsolid' is missing: the file is truncated", kExportAgain);
   TextRows rows(bytes);
@@ -124,6 +131,7 @@ void check_obj(const std::filesystem::path& path, std::string_view bytes) {
 }
 
 void check_off(const std::filesystem::path& path, std::string_view bytes) {
+  check_text(path, bytes);
   TextRows rows(bytes);
   if (!rows.next() || words_of(rows.row())[0].find("OFF") == std::string_view::npos)
     refuse_file(path, "line 1", "expected 'OFF', found " + excerpt(rows.row()),
@@ -132,8 +140,8 @@ void check_off(const std::filesystem::path& path, std::string_view bytes) {
   words.erase(words.begin());
   if (words.empty() && rows.next()) words = words_of(rows.row());
   double vertices = 0, faces = 0;
-  if (words.size() < 2 || !parse_number(words[0], vertices) || !parse_number(words[1], faces) || vertices < 1 ||
-      faces < 1)
+  if (words.size() < 2 || !parse_number(words[0], vertices) || !parse_number(words[1], faces) || !(vertices >= 1) ||
+      !(faces >= 1))
     refuse_file(path, rows.place(), "expected the counts of vertices and faces", kExportAgain);
   for (double v = 0; v < vertices; ++v) {
     if (!rows.next())
@@ -147,10 +155,10 @@ void check_off(const std::filesystem::path& path, std::string_view bytes) {
                   kExportAgain);
     const auto corners = words_of(rows.row());
     double count = 0, index = 0;
-    if (!parse_number(corners[0], count) || count < 3 || corners.size() < count + 1)
+    if (!parse_number(corners[0], count) || !(count >= 3 && count + 1 <= static_cast<double>(corners.size())))
       refuse_file(path, rows.place(), "expected a face 'n i j k ...', found " + excerpt(rows.row()), kExportAgain);
     for (std::size_t c = 1; c <= static_cast<std::size_t>(count); ++c)
-      if (!parse_number(corners[c], index) || index < 0 || index >= vertices)
+      if (!parse_number(corners[c], index) || !(index >= 0 && index < vertices))
         refuse_file(path, rows.place(), "vertex index " + std::string(corners[c]) + " is out of range", kExportAgain);
   }
 }

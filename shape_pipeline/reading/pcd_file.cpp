@@ -2,6 +2,7 @@
 #include "shape_pipeline/reading/pcd_file.h"
 
 #include <pcl/PCLPointCloud2.h>
+#include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 
 #include <cstdint>
@@ -59,12 +60,15 @@ PcdHeader parse_header(const std::filesystem::path& path, std::string_view bytes
       refuse_file(path, "header", std::string("expected the fields x, y and z; ") + name + " is missing", kExportAgain);
   for (std::size_t f = 0; f < fields.size(); ++f) {
     double size = 0, count = 0;
-    if (!parse_number(sizes[f], size) || !parse_number(counts[f], count) || size < 1 || count < 0)
+    if (!parse_number(sizes[f], size) || !parse_number(counts[f], count) || !(size >= 1 && size <= 8) ||
+        !(count >= 0 && count < 1e6))
       refuse_file(path, "header", "expected numbers in SIZE and COUNT", kExportAgain);
     header.row_bytes += static_cast<std::size_t>(size * count);
     header.row_words += static_cast<std::size_t>(count);
   }
   header.points = count_of(path, header, "WIDTH") * count_of(path, header, "HEIGHT");
+  if (header.entries.contains("POINTS") && count_of(path, header, "POINTS") != header.points)
+    refuse_file(path, "header", "POINTS is not WIDTH times HEIGHT", kExportAgain);
   if (header.entries["DATA"].empty()) refuse_file(path, "header", "expected a word after DATA", kExportAgain);
   header.storage = header.entries["DATA"][0];
   return header;
@@ -130,8 +134,13 @@ PointCloud read_pcd(const std::filesystem::path& path) {
   const std::string bytes = read_scan_bytes(path);
   check_body(path, parse_header(path, bytes), bytes);
   pcl::PCLPointCloud2 stored;
-  if (pcl::PCDReader().read(path.string(), stored) < 0)
-    refuse_file(path, "", "PCL cannot read this PCD file", kExportAgain);
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // what is wrong is said below, with the file's name
+  bool is_read = false;
+  try {
+    is_read = pcl::PCDReader().read(path.string(), stored) >= 0;
+  } catch (const std::exception&) {
+  }
+  if (!is_read) refuse_file(path, "", "PCL cannot read this PCD file", kExportAgain);
 
   const auto columns = [&](const char* a, const char* b, const char* c) {
     std::vector<catalog::Point> rows;

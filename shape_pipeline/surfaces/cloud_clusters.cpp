@@ -13,7 +13,7 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr double kGapSpacings = 3;      // scans are uneven: within a grain, hardly a point is farther from the next
+constexpr double kGapSpacings = 3;  // scans are uneven: within a grain, hardly a point is farther from the next
 constexpr std::size_t kSpeckPoints = 50;
 
 PointCloud chosen(const PointCloud& cloud, const std::vector<int>& indices) {

@@ -24,6 +24,8 @@ class Sidecar {
       values_ = json::parse(read_scan_bytes(path));
     } catch (const json::parse_error& error) {
       refuse_file(path, "byte " + std::to_string(error.byte), "is no JSON", kExample);
+    } catch (const json::out_of_range&) {
+      refuse_file(path, "", "holds a number that is too large", kExample);
     }
     if (!values_.is_object()) refuse_file(path, "", "is no JSON object", kExample);
     const std::vector<std::string> known{"size", "type", "endian", "offset", "voxel_size", "unit"};

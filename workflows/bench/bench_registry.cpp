@@ -14,12 +14,18 @@ const std::vector<Bench>& benches() {
 #ifdef TALUS_BENCH_DECOMPOSITION
       {"decomposition", "convex parts of scans (--scans DIR) and a torus: error, rules, time, front of error and cost",
        plan_decomposition_bench},
+      {"digitize", "from clouds (--scans DIR), virtual scans and tomograms to shapes: errors against truths",
+       plan_digitize_bench},
 #endif
       {"impacts", "sphere impacts of Chung & Ooi (2011), tests 1-8, beside exact and published values",
        plan_impacts_bench},
       {"laws", "contact laws: energy round closed paths, cuts into parts, stiffness exponents", plan_laws_bench},
       {"levels", "levels of detail of a catalogue (--catalog FILE): error against the cost of a contact",
        plan_levels_bench},
+#ifdef TALUS_BENCH_MICROGRAPHS
+      {"micrographs", "outlines of micrographs (--scans DIR) against those drawn by hand; solids made to match them",
+       plan_micrographs_bench},
+#endif
       {"overlap", "overlap integrals: error against closed forms, time per pair", plan_overlap_bench},
       {"parts", "how many parts a rock needs (--catalog FILE): 300 rocks poured, tilted and emptied at every level",
        plan_parts_bench},

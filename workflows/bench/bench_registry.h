@@ -25,9 +25,11 @@ BenchPlan plan_box_bench(const BenchOptions& options);
 BenchPlan plan_bulk_bench(const BenchOptions& options);
 BenchPlan plan_contact_bench(const BenchOptions& options);
 BenchPlan plan_decomposition_bench(const BenchOptions& options);  // where decomposition and shape_pipeline are built
+BenchPlan plan_digitize_bench(const BenchOptions& options);       // likewise
 BenchPlan plan_impacts_bench(const BenchOptions& options);
 BenchPlan plan_laws_bench(const BenchOptions& options);
 BenchPlan plan_levels_bench(const BenchOptions& options);
+BenchPlan plan_micrographs_bench(const BenchOptions& options);  // where shape_pipeline is built
 BenchPlan plan_overlap_bench(const BenchOptions& options);
 BenchPlan plan_parts_bench(const BenchOptions& options);
 BenchPlan plan_pile_bench(const BenchOptions& options);

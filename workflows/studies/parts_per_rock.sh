@@ -15,7 +15,7 @@ set -eu
 : "${OUT:=$STUDY}"
 talus=$BUILD/bin/talus
 parts=1,2,4,8,16,32
-caps=16,32
+caps=16,32,64
 
 # Status 4: a check did not pass. The scan's are in the listing, a bed that failed is in the page.
 go_on() {

@@ -4,15 +4,13 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <iostream>
 
 #include "catalog/input_error.h"
 #include "shape_pipeline/mesh_topology.h"
-#include "shape_pipeline/rigid_motion.h"
 #include "shape_pipeline/surface_reconstruction.h"
 #include "shape_pipeline/surfaces/random_stream.h"
+#include "shape_pipeline/virtual_parts.h"
 #include "shape_pipeline/virtual_scan.h"
 
 namespace shape_pipeline {
@@ -20,50 +18,11 @@ namespace {
 
 constexpr double kNoise = 3e-5;  // [m]; a rock is 0.03 m wide
 
-struct Plate {
-  PointCloud cloud;
-  std::vector<double> volumes;  // of the rocks [m3]
-};
-
-/// Rocks in a row on a plate, scanned from above: points that look down by more than 60 degrees are hidden.
-Plate rocks_on_a_plate(int count, int points) {
-  Plate plate;
-  RandomStream random(7);
-  const double pitch = 0.06, half = 0.04;
-  for (int r = 0; r < count; ++r) {
-    RockRecipe recipe;
-    recipe.seed = static_cast<std::uint64_t>(r + 1);
-    catalog::TriangleMesh rock = virtual_rock(recipe);
-    double lowest = 0;
-    for (const Point& vertex : rock.vertices) lowest = std::min(lowest, vertex[2]);
-    rock = moved({{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {pitch * r, 0, -lowest}}, rock);
-    plate.volumes.push_back(signed_volume(rock));
-    ScannerFlaws flaws;
-    flaws.seed = random.bits();
-    flaws.points = points;
-    flaws.gap_angle = 0;
-    flaws.stray_points = 0;
-    flaws.noise_sigma = kNoise;
-    for (const Point& point : virtual_scan(rock, flaws).points) {
-      const Point arm = subtract(point, {pitch * r, 0, -lowest});
-      if (arm[2] > -0.87 * norm(arm)) plate.cloud.points.push_back(point);
-    }
-  }
-  const double length = pitch * (count - 1) + 2 * half;
-  for (int i = 0; i < 3000 * count; ++i)
-    plate.cloud.points.push_back(
-        {random.uniform(0, length) - half, random.uniform(-half, half), kNoise * random.normal()});
-  // The plate lies in no special way.
-  const RigidMotion tilt{{{{0.6, 0, 0.8}, {0, 1, 0}, {-0.8, 0, 0.6}}}, {0.3, 0.1, -0.2}};
-  plate.cloud = moved(tilt, plate.cloud);
-  return plate;
-}
-
 TEST(FloorPlane, IsFoundAndGoes) {
-  const Plate plate = rocks_on_a_plate(1, 6000);
+  const VirtualPlate plate = virtual_plate(1, 6000, kNoise);
   const ClearedCloud cleared = without_floor(plate.cloud, "plate.ply");
   // The slope of 3000 points of that noise over 0.08 m is known to 1e-5.
-  EXPECT_NEAR(dot(cleared.normal, {0.8, 0, 0.6}), 1, 1e-8);
+  EXPECT_NEAR(dot(cleared.normal, plate.normal), 1, 1e-8);
   EXPECT_NEAR(cleared.noise, kNoise, 0.1 * kNoise);
   // Five deviations above the plate: of the rock, only a rim at its foot goes.
   EXPECT_GT(cleared.cloud.points.size(), 0.98 * (static_cast<double>(plate.cloud.points.size()) - 3000));
@@ -79,7 +38,7 @@ TEST(FloorPlane, IsFoundAndGoes) {
 }
 
 TEST(FloorPlane, RocksOnItComeApart) {
-  const Plate plate = rocks_on_a_plate(4, 3000);
+  const VirtualPlate plate = virtual_plate(4, 3000, kNoise);
   const ClearedCloud cleared = without_floor(plate.cloud, "plate.ply");
   PlateGrains found = separated_grains(cleared.cloud);
   ASSERT_EQ(found.grains.size(), 4u);

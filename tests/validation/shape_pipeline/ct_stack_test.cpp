@@ -10,17 +10,15 @@
 #include "catalog/mass_properties.h"
 #include "shape_pipeline/ct_stack.h"
 #include "shape_pipeline/mesh_topology.h"
+#include "shape_pipeline/virtual_stack.h"
 #include "tests/support/stack_files.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/virtual_stack.h"
 
 namespace shape_pipeline {
 namespace {
 
-using test_support::VirtualStack;
-
-/// Bounds of the volume error: at 60 voxels the goal is 1 %; elsewhere what a shift of the surface by 0.05 voxels makes
-/// of the volume, 6 * 0.05 / diameter.
+/// Bounds of the volume error: what a shift of the surface by 0.05 voxels makes of the volume, 6 * 0.05 / diameter. The
+/// bench digitize goes on to 80 voxels.
 struct Resolution {
   double diameter;  // [voxels]
   int grains;
@@ -43,13 +41,13 @@ int match(const StackGrain& grain, const std::vector<catalog::MassProperties>& t
 
 TEST_P(CtStackResolution, RecoversTouchingGrainsOneToOne) {
   const test_support::TemporaryFolder folder;
-  test_support::StackRecipe recipe;
+  StackRecipe recipe;
   recipe.diameter = GetParam().diameter;
   recipe.grains = GetParam().grains;
   std::vector<catalog::MassProperties> truths;
   std::vector<double> areas;
   {
-    const VirtualStack stack = virtual_stack(test_support::stack_grains(recipe.grains - 1, recipe.seed), recipe);
+    const VirtualStack stack = virtual_stack(stack_grains(recipe.grains - 1, recipe.seed), recipe);
     test_support::write_raw_stack(folder / "pack.raw", stack.volume);
     for (const catalog::TriangleMesh& mesh : stack.truths) {
       truths.push_back(catalog::mass_properties(mesh));
@@ -83,9 +81,7 @@ TEST_P(CtStackResolution, RecoversTouchingGrainsOneToOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Diameters, CtStackResolution,
-                         testing::Values(Resolution{10, 40, 0.03}, Resolution{20, 40, 0.015},
-                                         Resolution{40, 16, 0.0075}, Resolution{60, 12, 0.005},
-                                         Resolution{80, 8, 0.00375}),
+                         testing::Values(Resolution{10, 40, 0.03}, Resolution{20, 20, 0.015}),
                          [](const auto& info) { return std::to_string(static_cast<int>(info.param.diameter)); });
 
 }  // namespace

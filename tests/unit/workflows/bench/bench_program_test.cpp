@@ -61,8 +61,14 @@ TEST(BenchProgram, OptionsOfOtherBenchesAndBrokenNumbersAreRefused) {
   const TemporaryFolder folder;
   const Ended scans = run_bench(folder, "parts --scans X");
   EXPECT_EQ(scans.status, 2);
-  EXPECT_NE(scans.error.find("--scans is for the bench decomposition, not for 'parts'"), std::string::npos)
+  EXPECT_NE(scans.error.find("--scans is for the bench decomposition, digitize and micrographs, not for 'parts'"),
+            std::string::npos)
       << scans.error;
+  if (run_bench(folder, "--list").out.find("\nmicrographs:") != std::string::npos) {
+    const Ended without = run_bench(folder, "micrographs");
+    EXPECT_EQ(without.status, 2);
+    EXPECT_NE(without.error.find("--scans DIR"), std::string::npos) << without.error;
+  }
   const Ended seeds = run_bench(folder, "decomposition --seeds 1.5");
   EXPECT_EQ(seeds.status, 2);
   EXPECT_NE(seeds.error.find("expected a whole number from 1 to 1000, found '1.5'"), std::string::npos) << seeds.error;

@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tests/support/virtual_stack.h"
+#include "shape_pipeline/virtual_stack.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "catalog/mass_properties.h"
-#include "shape_pipeline/mesh_topology.h"
+#include "shape_pipeline/built_in_solids.h"
 #include "shape_pipeline/surfaces/random_stream.h"
 #include "shape_pipeline/virtual_scan.h"
 #include "shape_pipeline/volumes/grey_filters.h"
-#include "tests/support/sample_meshes.h"
 
-namespace test_support {
+namespace shape_pipeline {
 namespace {
 
 using catalog::Point;
 using catalog::TriangleMesh;
-using shape_pipeline::GreyVolume;
-using shape_pipeline::RandomStream;
-using shape_pipeline::VoxelGrid;
 
 constexpr int kRays = 4;            // along y and z in a voxel
 constexpr double kFull = 60000;     // of a whole voxel, in the 16 bits of the coverage
@@ -186,7 +182,7 @@ VirtualStack virtual_stack(const std::vector<TriangleMesh>& meshes, const StackR
     stack.truths.push_back(std::move(grain));
   }
   GreyVolume covered{stack.volume.grid, coverage.take(), 0};
-  if (recipe.blur > 0) shape_pipeline::gaussian_filter(covered, recipe.blur);
+  if (recipe.blur > 0) gaussian_filter(covered, recipe.blur);
   std::vector<std::uint8_t> grey;
   grey.reserve(covered.grid.count());
   for (const std::uint16_t share : std::get<std::vector<std::uint16_t>>(covered.values)) {
@@ -201,16 +197,16 @@ std::vector<TriangleMesh> stack_grains(int rocks, std::uint64_t seed) {
   RandomStream random(seed);
   std::vector<TriangleMesh> grains;
   for (int r = 0; r < rocks; ++r) {
-    shape_pipeline::RockRecipe rock;
+    RockRecipe rock;
     rock.seed = random.bits();
     rock.flatness = random.uniform(0.6, 1);
     rock.elongation = random.uniform(0.6, 1);
     rock.angularity = random.uniform(10, 50);
     rock.notch_depth = r % 4 == 3 ? 0.2 : 0;
-    grains.push_back(shape_pipeline::virtual_rock(rock));
+    grains.push_back(virtual_rock(rock));
   }
-  grains.push_back(uv_sphere(1, 90));
+  grains.push_back(built_in_solid({"superquadric", {{"e1", 1}, {"e2", 1}, {"detail", 45}}, 1}).mesh);
   return grains;
 }
 
-}  // namespace test_support
+}  // namespace shape_pipeline

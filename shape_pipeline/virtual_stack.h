@@ -7,7 +7,7 @@
 #include "catalog/triangle_mesh.h"
 #include "shape_pipeline/volumes/grey_volume.h"
 
-namespace test_support {
+namespace shape_pipeline {
 
 struct StackRecipe {
   int grains = 20;
@@ -21,7 +21,7 @@ struct StackRecipe {
 
 /// A tomogram of grains whose meshes are known.
 struct VirtualStack {
-  shape_pipeline::GreyVolume volume;          // 8 bit
+  GreyVolume volume;                          // 8 bit
   std::vector<catalog::TriangleMesh> truths;  // in the frame of the stack [m]
 };
 
@@ -30,8 +30,7 @@ struct VirtualStack {
 /// touches the border. The recipe's number of grains is drawn from the meshes in turn.
 VirtualStack virtual_stack(const std::vector<catalog::TriangleMesh>& meshes, const StackRecipe& recipe);
 
-/// Random rocks of the virtual scan, flat and long ones among them, some with a notch; a ball, a cube and an
-/// octahedron.
+/// Random rocks of the virtual scan, flat and long ones among them, every fourth with a notch, and a ball.
 std::vector<catalog::TriangleMesh> stack_grains(int rocks, std::uint64_t seed);
 
-}  // namespace test_support
+}  // namespace shape_pipeline
