@@ -17,10 +17,11 @@ namespace shape_pipeline {
 namespace {
 
 constexpr std::size_t kCoarsePoints = 500, kFinePoints = 4000;
-constexpr PairLimits kCoarse{0.3, 0.15}, kFine{0.1, 0.05};  // / diagonal: what two captures of one stone may differ by
-constexpr double kLargestDistance = 0.05;                   // mean / diagonal: beyond, they are two stones
-constexpr double kSameAttitude = 0.35;                      // [rad] apart, attitudes are two
-constexpr double kLeastMargin = 1.1;  // next attitude's distance / the best's: below, the choice is a guess
+// Over the diagonal. Tighter limits would fit the half of a poor capture that agrees, and tell the rest as its error.
+constexpr PairLimits kLimits{0.3, 0.15};
+constexpr double kLargestDistance = 0.05;  // mean / diagonal: beyond, they are two stones
+constexpr double kSameAttitude = 0.35;     // [rad] apart, attitudes are two
+constexpr double kLeastMargin = 1.1;       // next attitude's distance / the best's: below, the choice is a guess
 
 PointCloud sampled(const catalog::TriangleMesh& mesh, std::size_t limit) {
   PointCloud cloud;
@@ -57,10 +58,6 @@ RigidMotion to_principal_frame(const catalog::TriangleMesh& mesh) {
   return motion;
 }
 
-PairLimits scaled_limits(const PairLimits& limits, double diagonal) {
-  return {limits.reach * diagonal, limits.residual * diagonal};
-}
-
 double mean_distance(const PointCloud& moving, const AlignmentTarget& target, const RigidMotion& motion) {
   double sum = 0;
   for (const Point& p : moving.points) {
@@ -85,13 +82,14 @@ std::vector<Point> sample_points(const catalog::TriangleMesh& mesh) {
 
 SolidAlignment align_solids(const catalog::TriangleMesh& moving, const catalog::TriangleMesh& fixed) {
   const double diagonal = bounding_diagonal(fixed.vertices);
+  const PairLimits limits{kLimits.reach * diagonal, kLimits.residual * diagonal};
   const AlignmentTarget target(sampled(fixed, kFinePoints));
   const PointCloud few = sampled(moving, kCoarsePoints), many = sampled(moving, kFinePoints);
   const RigidMotion from = to_principal_frame(moving), to = inverse(to_principal_frame(fixed));
   std::vector<Attitude> attitudes;
   for (const catalog::Matrix3& rotation : axis_attitudes()) {
     const RigidMotion start = chained(to, chained({rotation, {}}, from));
-    const RigidMotion motion = finely_aligned(few, target, start, scaled_limits(kCoarse, diagonal)).motion;
+    const RigidMotion motion = finely_aligned(few, target, start, limits).motion;
     attitudes.push_back({motion, mean_distance(few, target, motion)});
   }
   std::stable_sort(attitudes.begin(), attitudes.end(),
@@ -103,7 +101,7 @@ SolidAlignment align_solids(const catalog::TriangleMesh& moving, const catalog::
   const double margin = next == attitudes.end() ? 0 : next->distance / best.distance;
 
   SolidAlignment result;
-  result.motion = finely_aligned(many, target, best.motion, scaled_limits(kFine, diagonal)).motion;
+  result.motion = finely_aligned(many, target, best.motion, limits).motion;
   const std::vector<double> distances = distances_to_surface(moved(result.motion, many).points, fixed);
   const double mean = distance_statistics(distances, diagonal).mean;
   char line[160];

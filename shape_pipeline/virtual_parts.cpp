@@ -12,11 +12,11 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr double kMissedCap = 0.35;        // of all directions
-constexpr double kReach = 0.2;             // of the random shifts [m]
-constexpr double kHiddenSine = 0.87;       // 60 degrees
+constexpr double kMissedCap = 0.35;           // of all directions
+constexpr double kReach = 0.2;                // of the random shifts [m]
+constexpr double kHiddenSine = 0.87;          // 60 degrees
 constexpr double kPitch = 0.06, kRim = 0.04;  // of rocks of 0.03 m on a plate, and of the plate about them [m]
-constexpr int kPlatePoints = 3000;         // a rock
+constexpr int kPlatePoints = 3000;            // a rock
 
 RigidMotion random_motion(RandomStream& random) {
   const Point axis = random.direction(), across = normalized(cross(axis, random.direction()));

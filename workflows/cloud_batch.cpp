@@ -119,8 +119,7 @@ void CloudBatch::digitize(const Job& job) {
   const Grain whole = merged(job);
   if (!settings_.is_separated) return store(job, job.name, provenance, whole);
 
-  const auto found =
-      shape_pipeline::separated_grains(whole.cloud, static_cast<std::size_t>(settings_.grain_points));
+  const auto found = shape_pipeline::separated_grains(whole.cloud, static_cast<std::size_t>(settings_.grain_points));
   if (found.grains.empty() && found.small.empty())
     throw catalog::InputError(job.files.front().string() + ": holds no grain; scan more points");
   catalog_.forget_rejected(job.name);
@@ -134,8 +133,8 @@ void CloudBatch::digitize(const Job& job) {
   for (const std::size_t points : found.small) {
     ++number;
     reject(job, job.name + formatted("_%02zu", number), provenance.source_sha256,
-           job.files.front().string() + formatted(": grain %zu has %zu points, expected at least %d", number, points,
-                                                  settings_.grain_points) +
+           job.files.front().string() +
+               formatted(": grain %zu has %zu points, expected at least %d", number, points, settings_.grain_points) +
                "; scan it with more points or lower --grain-points");
   }
   if (found.specks > 0) progress_.note(job.name + formatted(": %zu stray points dropped", found.specks));
@@ -149,8 +148,8 @@ bool CloudBatch::is_done(const Job& job, const catalog::Provenance& provenance) 
     const auto id = catalog_.find(name);
     if (!id) return false;
     const catalog::ShapeRecord shape = catalog_.shape(*id);
-    if (shape.provenance.source_sha256 != provenance.source_sha256 ||
-        shape.provenance.options != provenance.options || shape.provenance.tool_version != provenance.tool_version)
+    if (shape.provenance.source_sha256 != provenance.source_sha256 || shape.provenance.options != provenance.options ||
+        shape.provenance.tool_version != provenance.tool_version)
       return false;
     for (const catalog::Check& check : shape.checks)
       if (check.name == kGrainsCheck) expected = static_cast<std::size_t>(check.figure);

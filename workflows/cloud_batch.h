@@ -14,10 +14,10 @@ namespace workflows {
 
 /// What is done to clouds before they are surfaced, as typed.
 struct CloudSettings {
-  bool is_registered = false;   // the inputs are parts of one particle
-  bool removes_plane = false;   // turntable or floor
-  bool is_separated = false;    // several grains in a cloud
-  int grain_points = 500;       // least, of a separated grain
+  bool is_registered = false;  // the inputs are parts of one particle
+  bool removes_plane = false;  // turntable or floor
+  bool is_separated = false;   // several grains in a cloud
+  int grain_points = 500;      // least, of a separated grain
 
   bool are_given() const { return is_registered || removes_plane || is_separated; }
 };

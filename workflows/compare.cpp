@@ -48,11 +48,17 @@ struct Row {
   double first, second;
 };
 
-/// Root mean square distance of the surface from itself without fine detail, over the volume-equivalent radius.
-double roughness(const catalog::TriangleMesh& mesh) {
+/// Root mean square distance of a surface from itself without fine detail, over the volume-equivalent radius, and the
+/// check that carries it, which is named for the method.
+struct Roughness {
+  std::string method;
+  double value = std::nan("");
+};
+
+Roughness roughness(const catalog::TriangleMesh& mesh) {
   for (const catalog::Check& check : shape_pipeline::low_passed(mesh, kRoughnessDegree).checks)
-    if (check.name.starts_with("low_pass_")) return check.figure;
-  return std::nan("");
+    if (check.name.starts_with("low_pass_")) return {check.name, check.figure};
+  return {};
 }
 
 catalog::ShapeRecord capture(const fs::path& scan, const std::string& option, const std::string& unit, int faces) {
@@ -85,7 +91,6 @@ std::vector<Row> rows(const catalog::ShapeRecord& first, const catalog::ShapeRec
     const auto a = first.descriptors.find(name), b = second.descriptors.find(name);
     if (a != first.descriptors.end() && b != second.descriptors.end()) table.push_back({name, a->second, b->second});
   }
-  table.push_back({"roughness_degree_10", roughness(first.mesh), roughness(second.mesh)});
   return table;
 }
 
@@ -141,6 +146,11 @@ int compare(const CommandLine& line) {
 
   Comparison comparison{
       rows(first, second), alignment.checks, {}, shape_pipeline::shape_difference(aligned, first.mesh)};
+  const Roughness first_roughness = roughness(first.mesh), second_roughness = roughness(second.mesh);
+  comparison.rows.push_back({"roughness_degree_10", first_roughness.value, second_roughness.value});
+  if (first_roughness.method != second_roughness.method)
+    comparison.failed.push_back("roughness_degree_10: by " + first_roughness.method + " and " +
+                                second_roughness.method);
   const auto collect = [&](const std::string& name, const std::vector<catalog::Check>& checks) {
     for (const catalog::Check& check : checks)
       if (!check.passed) comparison.failed.push_back(name + ": " + check.name);
