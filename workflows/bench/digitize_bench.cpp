@@ -35,6 +35,7 @@ BenchPlan plan_digitize_bench(const BenchOptions& options) {
                             }});
   for (const RegistrationCase& parts : kRegistrationCases)
     plan.cases.push_back({"registration-" + parts.name, [parts] { return measure_registration(parts); }});
+  plan.cases.push_back({"registration-strangers", measure_strangers});
   plan.cases.push_back({"plate", measure_plate});
   if (std::filesystem::exists(options.scans / kCaptureFiles[0]) &&
       std::filesystem::exists(options.scans / kCaptureFiles[1]))

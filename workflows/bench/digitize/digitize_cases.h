@@ -49,6 +49,9 @@ struct RegistrationCase {
 inline const std::vector<RegistrationCase> kRegistrationCases{{"two", 2, 1e-3}, {"three", 3, 1e-3}, {"noisy", 3, 4e-3}};
 CaseResult measure_registration(const RegistrationCase& wanted);
 
+/// Parts of two rocks, which must not be joined.
+CaseResult measure_strangers();
+
 /// Four rocks on a plate: plane, grains, volumes.
 CaseResult measure_plate();
 

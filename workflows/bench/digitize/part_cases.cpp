@@ -21,7 +21,17 @@ namespace {
 namespace sp = shape_pipeline;
 
 constexpr int kRocks = 8;
+constexpr double kRockSize = 0.03;  // intermediate axis, about [m]
 constexpr double kPerRadian = 180 / std::numbers::pi;
+
+catalog::TriangleMesh bench_rock(int number) {
+  sp::RockRecipe recipe;
+  recipe.seed = static_cast<std::uint64_t>(number);
+  recipe.size = kRockSize;
+  recipe.flatness = 0.75;
+  recipe.notch_depth = number % 2 == 0 ? 0.3 : 0;
+  return sp::virtual_rock(recipe);
+}
 
 void add(CaseResult& result, const std::string& name, double value, const std::string& unit,
          std::optional<Goal> goal = std::nullopt) {
@@ -38,12 +48,9 @@ CaseResult measure_registration(const RegistrationCase& wanted) {
   CaseResult result;
   double rotation = 0, shift = 0, volume = 0, seconds = 0;
   for (int r = 1; r <= kRocks; ++r) {
-    sp::RockRecipe recipe;
-    recipe.seed = static_cast<std::uint64_t>(r);
-    recipe.flatness = 0.75;
-    recipe.notch_depth = r % 2 == 0 ? 0.3 : 0;
-    const catalog::TriangleMesh rock = sp::virtual_rock(recipe);
-    const sp::VirtualParts known = sp::virtual_parts(rock, wanted.parts, recipe.seed, wanted.noise * recipe.size);
+    const catalog::TriangleMesh rock = bench_rock(r);
+    const sp::VirtualParts known =
+        sp::virtual_parts(rock, wanted.parts, static_cast<std::uint64_t>(r), wanted.noise * kRockSize);
     const std::string name = "rock " + std::to_string(r);
     try {
       const CpuClock clock;
@@ -66,6 +73,23 @@ CaseResult measure_registration(const RegistrationCase& wanted) {
   add(result, "shift over the diagonal, worst part", shift, "%", at_most(0.2));
   if (wanted.parts > 2) add(result, "volume error of the merged cloud's solid, worst rock", volume, "%");
   add(result, "CPU time, slowest rock", seconds, "s");
+  return result;
+}
+
+CaseResult measure_strangers() {
+  CaseResult result;
+  double taken = 0;
+  for (int r = 1; r <= kRocks; ++r) {
+    const auto part = [](int rock) {
+      return sp::virtual_parts(bench_rock(rock), 1, static_cast<std::uint64_t>(rock), 1e-3 * kRockSize).parts.front();
+    };
+    try {
+      sp::register_parts({part(r), part(r + 1)});
+      ++taken;
+    } catch (const catalog::InputError&) {  // as it should be
+    }
+  }
+  add(result, "pairs of two rocks that were joined, of 8", taken, "-", at_most(0));
   return result;
 }
 
