@@ -13,10 +13,10 @@
 #include "shape_pipeline/meshes/soup_orientation.h"
 #include "shape_pipeline/point_cloud.h"
 #include "shape_pipeline/solid_checks.h"
+#include "shape_pipeline/surface_distance.h"
 #include "shape_pipeline/surface_reconstruction.h"
 #include "shape_pipeline/surfaces/alpha_wrap.h"
 #include "shape_pipeline/surfaces/cloud_projection.h"
-#include "shape_pipeline/surfaces/surface_distance.h"
 #include "shape_pipeline/surfaces/vector3.h"
 #include "shape_pipeline/surfaces/winding_volume.h"
 

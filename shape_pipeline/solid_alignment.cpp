@@ -8,8 +8,8 @@
 
 #include "shape_pipeline/mesh_topology.h"
 #include "shape_pipeline/registration/fine_alignment.h"
+#include "shape_pipeline/surface_distance.h"
 #include "shape_pipeline/surfaces/cloud_cleaning.h"
-#include "shape_pipeline/surfaces/surface_distance.h"
 #include "shape_pipeline/surfaces/vector3.h"
 #include "shape_pipeline/surfaces/winding_volume.h"
 

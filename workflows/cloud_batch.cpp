@@ -31,14 +31,6 @@ std::string options_text(const ScanSettings& settings, const CloudSettings& clou
   return options.dump();
 }
 
-/// Of one file its own; of several that of the list of theirs.
-std::string source_hash(const std::vector<fs::path>& files) {
-  if (files.size() == 1) return catalog::sha256_of_file(files[0]);
-  std::string list;
-  for (const fs::path& file : files) list += catalog::sha256_of_file(file) + "\n";
-  return catalog::sha256(list.data(), list.size());
-}
-
 std::string source_text(const std::vector<fs::path>& files) {
   std::string names;
   for (const fs::path& file : files) names += (names.empty() ? "" : ", ") + file.filename().string();
@@ -113,7 +105,7 @@ void CloudBatch::digitize(const Job& job) {
     if (fs::status(file, error).type() != fs::file_type::regular)
       throw catalog::InputError(file.string() + ": no such file; check the path");
   }
-  const catalog::Provenance provenance{source_text(job.files), source_hash(job.files), tool_version(),
+  const catalog::Provenance provenance{source_text(job.files), hash_of_files(job.files), tool_version(),
                                        options_text(options_.settings, settings_)};
   if (is_done(job, provenance)) return;
   const Grain whole = merged(job);
@@ -148,9 +140,7 @@ bool CloudBatch::is_done(const Job& job, const catalog::Provenance& provenance) 
     const auto id = catalog_.find(name);
     if (!id) return false;
     const catalog::ShapeRecord shape = catalog_.shape(*id);
-    if (shape.provenance.source_sha256 != provenance.source_sha256 || shape.provenance.options != provenance.options ||
-        shape.provenance.tool_version != provenance.tool_version)
-      return false;
+    if (!have_one_source(shape.provenance, provenance)) return false;
     for (const catalog::Check& check : shape.checks)
       if (check.name == kGrainsCheck) expected = static_cast<std::size_t>(check.figure);
     known.push_back({job.files.front(), name, "skipped", "", catalog_.summary(*id)});

@@ -89,10 +89,6 @@ std::string first_reason(const DigitizedScan& outcome) {
   return text;
 }
 
-bool is_same(const catalog::Provenance& a, const catalog::Provenance& b) {
-  return a.source_sha256 == b.source_sha256 && a.options == b.options && a.tool_version == b.tool_version;
-}
-
 }  // namespace
 
 DigitizationOptions digitization_options(const ScanSettings& settings) {
@@ -132,6 +128,17 @@ std::string scan_options_text(const ScanSettings& settings, const std::optional<
   if (!settings.size.empty()) options["size"] = settings.size;
   if (truth) options["truth"] = {{"volume", truth->volume}, {"surface_area", truth->surface_area}};
   return options.dump();
+}
+
+std::string hash_of_files(const std::vector<fs::path>& files) {
+  if (files.size() == 1) return catalog::sha256_of_file(files[0]);
+  std::string list;
+  for (const fs::path& file : files) list += catalog::sha256_of_file(file) + "\n";
+  return catalog::sha256(list.data(), list.size());
+}
+
+bool have_one_source(const catalog::Provenance& a, const catalog::Provenance& b) {
+  return a.source_sha256 == b.source_sha256 && a.options == b.options && a.tool_version == b.tool_version;
 }
 
 // SQLite takes an empty file for a new database, but it may be anything of the user's.
@@ -183,7 +190,8 @@ DigitizeBatch::Prepared DigitizeBatch::prepare(std::size_t s) {
     result.provenance.source_sha256 = catalog::sha256_of_file(scan);
   });
   if (result.reason.empty()) {
-    if (const auto id = catalog_->find(names_[s]); id && is_same(catalog_->shape(*id).provenance, result.provenance)) {
+    if (const auto id = catalog_->find(names_[s]);
+        id && have_one_source(catalog_->shape(*id).provenance, result.provenance)) {
       result.status = "skipped";
       return result;
     }
