@@ -17,6 +17,7 @@ namespace shape_pipeline {
 namespace {
 
 constexpr int kNormalNeighbours = 18;         // points of a tangent plane: less follows noise, more rounds edges
+constexpr std::size_t kPartPoints = 60000;    // of a part: what a reconstruction keeps of a whole particle
 constexpr std::size_t kFinePoints = 6000;     // of a part, for closest points
 constexpr std::size_t kTargetPoints = 30000;  // that they are sought among
 constexpr std::size_t kTriedAttitudes = 4;
@@ -33,8 +34,9 @@ Point mean_point(const std::vector<Point>& points) {
 }
 
 /// Without strays, with outward normals: away from the mean point, which lies behind most of a part's surface.
-PointCloud prepared(PointCloud cloud) {
+PointCloud prepared(PointCloud cloud, std::size_t& thinned) {
   merge_duplicate_points(cloud);
+  if (cloud.points.size() > kPartPoints) thinned += thin_out(cloud, kPartPoints);
   remove_outliers(cloud);
   PointCloud result = with_estimated_normals({cloud.points, {}}, kNormalNeighbours);
   const Point mean = mean_point(result.points);
@@ -80,7 +82,7 @@ class Registration {
  public:
   explicit Registration(const std::vector<PartialScan>& parts) : parts_(parts), motions_(parts.size()) {
     for (const PartialScan& part : parts) {
-      clouds_.push_back(prepared(part.cloud));
+      clouds_.push_back(prepared(part.cloud, thinned_));
       fine_.push_back(thinned(clouds_.back(), kFinePoints));
     }
   }
@@ -133,6 +135,9 @@ class Registration {
         {"registration_rms", true, std::sqrt(squares), "distance of the parts from one another where they overlap [m]"},
         {"registration_overlap", least_overlap >= kLeastOverlap, least_overlap,
          "least share of a part that lies on others, expected at least 0.15"}};
+    if (thinned_ > 0)
+      registered.checks.push_back({"registration_thinned", true, static_cast<double>(thinned_),
+                                   "points left out where the parts are dense, 60000 a part kept"});
     add_pairs(registered);
     return registered;
   }
@@ -195,6 +200,7 @@ class Registration {
   const std::vector<PartialScan>& parts_;
   std::vector<PointCloud> clouds_, fine_;
   std::vector<RigidMotion> motions_;
+  std::size_t thinned_ = 0;  // points left out of dense parts
 };
 
 }  // namespace
