@@ -67,25 +67,9 @@ void compare_with_truth(catalog::ShapeRecord& shape, const ScanTruth& truth) {
   compare("surface_area", surface_area(shape.mesh), truth.surface_area);
 }
 
-}  // namespace
-
-catalog::ShapeRecord in_principal_frame(const catalog::TriangleMesh& mesh) {
-  const catalog::MassProperties found = catalog::mass_properties(mesh);
-  catalog::ShapeRecord shape;
-  shape.mesh = mesh;
-  for (Point& vertex : shape.mesh.vertices) {
-    const Point arm = subtract(vertex, found.centroid);
-    for (int i = 0; i < 3; ++i) vertex[i] = dot(found.principal_axes[i], arm);
-  }
-  shape.mass_properties.volume = found.volume;
-  shape.mass_properties.principal_inertia = found.principal_inertia;
-  return shape;
-}
-
-catalog::ShapeRecord digitize(const std::filesystem::path& scan, const DigitizationOptions& options,
-                              const std::optional<ScanTruth>& truth) {
-  Solid solid =
-      scan_kind(scan) == ScanKind::point_cloud ? solid_from_cloud(scan, options) : solid_from_mesh(scan, options);
+/// The solid with its faces limited, checked, in its principal frame, described and at its size.
+catalog::ShapeRecord described(Solid solid, const std::filesystem::path& scan, const DigitizationOptions& options,
+                               const std::optional<ScanTruth>& truth) {
   if (!solid.refusal.empty())
     refuse_file(scan, "", solid.refusal, "scan the particle again from all sides, or state its handles with --genus");
   RemeshedMesh remeshed = remesh(solid.mesh, options.remeshing);
@@ -104,6 +88,36 @@ catalog::ShapeRecord digitize(const std::filesystem::path& scan, const Digitizat
   for (const auto& [name, value] : shape_descriptors(shape.mesh)) shape.descriptors[name] = value;
   shape.checks.push_back({"rescaled", true, factor, "size in the catalogue / size scanned"});
   return shape;
+}
+
+}  // namespace
+
+catalog::ShapeRecord in_principal_frame(const catalog::TriangleMesh& mesh) {
+  const catalog::MassProperties found = catalog::mass_properties(mesh);
+  catalog::ShapeRecord shape;
+  shape.mesh = mesh;
+  for (Point& vertex : shape.mesh.vertices) {
+    const Point arm = subtract(vertex, found.centroid);
+    for (int i = 0; i < 3; ++i) vertex[i] = dot(found.principal_axes[i], arm);
+  }
+  shape.mass_properties.volume = found.volume;
+  shape.mass_properties.principal_inertia = found.principal_inertia;
+  return shape;
+}
+
+catalog::ShapeRecord digitize(const std::filesystem::path& scan, const DigitizationOptions& options,
+                              const std::optional<ScanTruth>& truth) {
+  return described(
+      scan_kind(scan) == ScanKind::point_cloud ? solid_from_cloud(scan, options) : solid_from_mesh(scan, options), scan,
+      options, truth);
+}
+
+catalog::ShapeRecord digitize_cloud(const PointCloud& cloud, const std::filesystem::path& scan,
+                                    const DigitizationOptions& options, const std::vector<catalog::Check>& made) {
+  Reconstruction found = reconstruct_surface(cloud, options.reconstruction);
+  found.checks.insert(found.checks.begin(), made.begin(), made.end());
+  return described({std::move(found.mesh), std::move(found.checks), std::move(found.refusal)}, scan, options,
+                   std::nullopt);
 }
 
 }  // namespace shape_pipeline

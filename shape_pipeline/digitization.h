@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "catalog/shape_record.h"
 #include "shape_pipeline/mesh_remeshing.h"
+#include "shape_pipeline/point_cloud.h"
 #include "shape_pipeline/surface_reconstruction.h"
 #include "shape_pipeline/virtual_scan.h"
 
@@ -24,6 +26,10 @@ struct DigitizationOptions {
 /// checked and described (before rescaling). Throws InputError, with the file named, for what cannot become a solid.
 catalog::ShapeRecord digitize(const std::filesystem::path& scan, const DigitizationOptions& options,
                               const std::optional<ScanTruth>& truth = std::nullopt);
+
+/// The same from a cloud in metres; `scan` names it in refusals, `made` are the checks that led to it.
+catalog::ShapeRecord digitize_cloud(const PointCloud& cloud, const std::filesystem::path& scan,
+                                    const DigitizationOptions& options, const std::vector<catalog::Check>& made);
 
 /// The mesh moved to its centroid and turned to its principal axes, with mass properties in that frame.
 catalog::ShapeRecord in_principal_frame(const catalog::TriangleMesh& mesh);

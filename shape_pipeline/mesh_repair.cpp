@@ -13,6 +13,7 @@
 #include "shape_pipeline/meshes/soup_orientation.h"
 #include "shape_pipeline/point_cloud.h"
 #include "shape_pipeline/solid_checks.h"
+#include "shape_pipeline/surface_distance.h"
 #include "shape_pipeline/surface_reconstruction.h"
 #include "shape_pipeline/surfaces/alpha_wrap.h"
 #include "shape_pipeline/surfaces/cloud_projection.h"
@@ -135,20 +136,58 @@ PointCloud points_of(const catalog::TriangleMesh& mesh) {
   return cloud;
 }
 
-/// Poisson surface of the mesh's points, for a mesh of many holes or of tangled shells.
+/// Poisson surface of the mesh's points, for a mesh of many holes or of tangled shells. The faces give the normals;
+/// where their noise leaves no solid, the points around each do.
 Reconstruction rebuilt_from_points(const catalog::TriangleMesh& mesh, int genus) {
   ReconstructionOptions options;
   options.method = ReconstructionMethod::poisson;
   options.genus = genus;
-  return reconstruct_surface(points_of(mesh), options);
+  PointCloud cloud = points_of(mesh);
+  Reconstruction rebuilt = reconstruct_surface(cloud, options);
+  const bool is_oriented = std::all_of(rebuilt.checks.begin(), rebuilt.checks.end(), [](const catalog::Check& check) {
+    return check.name != "given_normals" || check.passed;
+  });
+  // Where the mesh's own normals contradict its points, its patches are turned at random: nothing to build on.
+  if (!is_oriented) rebuilt.refusal = "its faces are not turned alike";
+  if (!is_oriented || rebuilt.refusal.empty()) return rebuilt;
+  const std::string flaws = rebuilt.refusal;
+  cloud.normals.clear();
+  rebuilt = reconstruct_surface(cloud, options);
+  if (rebuilt.refusal.empty())
+    rebuilt.checks.insert(rebuilt.checks.begin(), {"face_normals", false, 0,
+                                                   "with the normals of the faces " + flaws +
+                                                       "; normals estimated from the points taken instead"});
+  return rebuilt;
 }
 
-}  // namespace
+constexpr std::size_t kDeviationSamples = 20000;  // of the input's surface: the mean to half a percent
+constexpr double kLargestDeviation = 0.005;       // mean distance / diagonal: a repair that moves more is invention
 
-RepairedMesh repair_mesh(const catalog::TriangleMesh& scanned, const RepairOptions& options) {
+/// How far the input's surface lies from the result: mean, 95 % and largest distance over the input's diagonal.
+void add_deviation(const catalog::TriangleMesh& input, RepairedMesh& result) {
+  const std::vector<SurfaceElement> samples = surface_samples(input);
+  std::vector<Point> points;
+  const std::size_t step = std::max<std::size_t>(1, samples.size() / kDeviationSamples);
+  for (std::size_t i = 0; i < samples.size(); i += step) points.push_back(samples[i].centre);
+  const catalog::SurfaceDistance deviation =
+      distance_statistics(distances_to_surface(points, result.mesh), bounding_diagonal(input.vertices));
+  const auto add = [&](const char* name, bool is_good, double share, const char* expectation) {
+    char line[160];
+    std::snprintf(line, sizeof line, "distance of the input to the result is %.4f %% of the diagonal%s", 100 * share,
+                  expectation);
+    result.checks.push_back({name, is_good, share, line});
+  };
+  add("deviation_mean", deviation.mean <= kLargestDeviation, deviation.mean, ", expected at most 0.5 %");
+  add("deviation_95", true, deviation.percentile_95, " (95 % of the surface is nearer)");
+  add("deviation_largest", true, deviation.largest, " at most");
+}
+
+/// The repair without its deviation.
+RepairedMesh repaired(const catalog::TriangleMesh& scanned, const RepairOptions& options) {
   Repair repair{scanned, {}};
   clean(repair);
   const bool was_closed = mesh_topology(repair.mesh).is_closed();
+  const catalog::TriangleMesh cleaned = repair.mesh;
   orient(repair);
   turn_outwards(repair.mesh);
   const catalog::TriangleMesh all_surfaces = repair.mesh;
@@ -183,12 +222,8 @@ RepairedMesh repair_mesh(const catalog::TriangleMesh& scanned, const RepairOptio
   const std::string replaced = options.wrapping == Wrapping::always ? "" : "repair left " + flaws;
   std::string tried = flaws;
   if (options.wrapping == Wrapping::where_repair_fails) {
-    Reconstruction rebuilt = rebuilt_from_points(all_surfaces, options.genus);
-    // Where the mesh's own normals contradict its points, its patches are turned at random: nothing to build on.
-    const bool is_oriented = std::all_of(rebuilt.checks.begin(), rebuilt.checks.end(), [](const catalog::Check& check) {
-      return check.name != "given_normals" || check.passed;
-    });
-    if (!is_oriented) rebuilt.refusal = "its faces are not turned alike";
+    // As the scanner turned them: orienting torn patches one by one may turn some inwards.
+    Reconstruction rebuilt = rebuilt_from_points(cleaned, options.genus);
     if (rebuilt.refusal.empty()) {
       result.mesh = std::move(rebuilt.mesh);
       result.checks.push_back({"repaired_solid", false, 0, replaced + "; rebuilt from its points instead"});
@@ -217,6 +252,14 @@ RepairedMesh repair_mesh(const catalog::TriangleMesh& scanned, const RepairOptio
     tried += "; even the coarsest alpha wrap: " + wrap_flaws;
   }
   result.refusal = "the mesh cannot be made one right solid (" + tried + ")";
+  return result;
+}
+
+}  // namespace
+
+RepairedMesh repair_mesh(const catalog::TriangleMesh& scanned, const RepairOptions& options) {
+  RepairedMesh result = repaired(scanned, options);
+  if (result.refusal.empty()) add_deviation(scanned, result);
   return result;
 }
 

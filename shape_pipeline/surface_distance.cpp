@@ -6,6 +6,9 @@
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace shape_pipeline {
 
 std::vector<double> signed_distances_to_surface(const std::vector<catalog::Point>& points,
@@ -43,6 +46,16 @@ std::vector<double> distances_to_surface(const std::vector<catalog::Point>& poin
   std::vector<double> result = signed_distances_to_surface(points, mesh);
   for (double& distance : result) distance = distance < 0 ? -distance : distance;
   return result;
+}
+
+catalog::SurfaceDistance distance_statistics(std::vector<double> distances, double diagonal) {
+  if (distances.empty()) return {};
+  std::sort(distances.begin(), distances.end());
+  double sum = 0;
+  for (const double distance : distances) sum += distance;
+  const auto count = static_cast<double>(distances.size());
+  const auto rank = static_cast<std::size_t>(std::ceil(0.95 * count)) - 1;
+  return {sum / count / diagonal, distances[rank] / diagonal, distances.back() / diagonal};
 }
 
 }  // namespace shape_pipeline

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "catalog/triangle_mesh.h"
+#include "catalog/shape_record.h"
 
 namespace shape_pipeline {
 
@@ -13,5 +13,8 @@ std::vector<double> distances_to_surface(const std::vector<catalog::Point>& poin
 /// The same with a sign: positive on the side that the triangle's normal points to.
 std::vector<double> signed_distances_to_surface(const std::vector<catalog::Point>& points,
                                                 const catalog::TriangleMesh& mesh);
+
+/// Mean, 95 % and largest of distances without sign, over a diagonal of the same unit. Zeros if there are none.
+catalog::SurfaceDistance distance_statistics(std::vector<double> distances, double diagonal);
 
 }  // namespace shape_pipeline

@@ -12,6 +12,7 @@
 
 #include "catalog/input_error.h"
 #include "shape_pipeline/virtual_scan.h"
+#include "workflows/cloud_batch.h"
 #include "workflows/command_options.h"
 #include "workflows/digitize_batch.h"
 #include "workflows/micrograph_batch.h"
@@ -27,6 +28,7 @@ namespace fs = std::filesystem;
 /// The command line as typed.
 struct CommandLine {
   DigitizeBatchOptions batch;
+  CloudSettings cloud;
   StackSettings stack;
   MicrographSettings micrograph;
   fs::path virtual_scan_folder;
@@ -46,6 +48,9 @@ constexpr char kDescription[] =
     "reason, and the batch goes on; the exit status is then 3. It is 4 if all scans could be used, but a shape has a "
     "check that did\n"
     "not pass: such shapes are stored, and named.\n\n"
+    "  talus digitize side1.ply side2.ply side3.ply --register --name rock --into ore.talus --unit mm\n\n"
+    "brings partial scans of one particle together. --remove-plane takes the floor or turntable out of a cloud,\n"
+    "--separate makes each grain on it a shape of its own, named plate_01, ... from that of most points down.\n\n"
     "  talus digitize stack.tif --into ore.talus --voxel '12 um'\n\n"
     "parts a CT stack (multi-page TIFF, NRRD, RAW with a JSON sidecar, or with --stack a folder of TIFF slices) into "
     "its\n"
@@ -55,6 +60,14 @@ constexpr char kDescription[] =
     "powder_outlines/, and a population of solids whose silhouettes match them to the catalogue.\n\n"
     "  talus digitize --make-virtual-scans scans/ --count 4 --seed 1\n\n"
     "writes scans of generated rocks with noise and gaps, and their truth (use --unit m --truth scans/truth.json).";
+
+void declare_cloud_options(CLI::App& app, CloudSettings& cloud) {
+  app.add_flag("--register", cloud.is_registered, "the clouds are partial scans of one particle");
+  app.add_flag("--remove-plane", cloud.removes_plane, "of a cloud: the floor or turntable that it stands on");
+  app.add_flag("--separate", cloud.is_separated, "of a cloud: grains that lie apart");
+  add_whole_number(app, "--grain-points", cloud.grain_points, {50, 10000000},
+                   "of a separated grain, at least; those of fewer are rejected");
+}
 
 void declare_stack_options(CLI::App& app, StackSettings& stack) {
   app.add_flag("--stack", stack.is_asked_for, "each folder is one CT stack, a TIFF a slice");
@@ -116,6 +129,7 @@ void declare_options(CLI::App& app, CommandLine& line) {
                "drop points that are no numbers instead of refusing the cloud");
   app.add_option("--truth", line.batch.truth_path,
                  "JSON of known volumes and areas: checks the error of each scan named in it");
+  declare_cloud_options(app, line.cloud);
   declare_stack_options(app, line.stack);
   declare_micrograph_options(app, line.micrograph);
   app.add_flag("--json", line.is_json, "one JSON object a scan on stdout");
@@ -203,6 +217,10 @@ int run_batch(const CommandLine& line, Batch batch) {
 int digitize_batch(const CommandLine& line) {
   if (line.batch.inputs.empty())
     throw catalog::UsageError("no scan named; give files or folders, or --make-virtual-scans DIR");
+  if (line.cloud.are_given()) {
+    if (line.batch.catalog_path.empty()) throw catalog::UsageError("no catalogue named; add --into ore.talus");
+    return run_batch(line, CloudBatch(line.batch, line.cloud));
+  }
   if (are_micrographs(line.batch, line.micrograph)) {
     MicrographSettings settings = line.micrograph;
     settings.seed = line.seed;

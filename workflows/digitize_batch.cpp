@@ -25,46 +25,6 @@ using shape_pipeline::ReconstructionMethod;
 using shape_pipeline::RemeshingStyle;
 using shape_pipeline::ScanTruth;
 
-DigitizationOptions digitization_options(const ScanSettings& settings) {
-  if (settings.unit.empty())
-    throw catalog::UsageError("--unit: scans carry no unit and none is guessed; state it, such as --unit mm (one of " +
-                              accepted_units(Dimension::length) + ")");
-  const std::optional<double> unit = length_unit(settings.unit);
-  if (!unit)
-    throw catalog::UsageError("--unit: expected one of " + accepted_units(Dimension::length) + ", found '" +
-                              settings.unit + "'; state the unit of the scans' coordinates");
-  DigitizationOptions options;
-  options.metres_per_unit = *unit;
-  options.drops_nan_points = settings.drops_nan;
-  options.reconstruction.genus = settings.genus;
-  if (settings.method == "poisson") options.reconstruction.method = ReconstructionMethod::poisson;
-  if (settings.method == "alpha-wrap") options.reconstruction.method = ReconstructionMethod::alpha_wrap;
-  options.remeshing.face_limit = static_cast<std::size_t>(settings.faces);
-  if (settings.is_isotropic) options.remeshing.style = RemeshingStyle::isotropic;
-  if (!settings.size.empty()) {
-    options.sieve_size = parse_quantity(settings.size, Dimension::length);
-    constexpr double kSmallest = 1e-12,
-                     kLargest = 1e12;  // [m], as of scans: beyond, moments leave the range of numbers
-    if (!options.sieve_size || !(*options.sieve_size >= kSmallest && *options.sieve_size <= kLargest))
-      throw catalog::UsageError("--size: expected a length from 1e-12 to 1e12 m such as '30 mm', found '" +
-                                settings.size + "'");
-  }
-  return options;
-}
-
-/// Everything that changes the result, as JSON; part of the test whether a scan is done already.
-std::string options_text(const ScanSettings& settings, const std::optional<ScanTruth>& truth) {
-  nlohmann::ordered_json options{{"unit", settings.unit},
-                                 {"genus", settings.genus},
-                                 {"faces", settings.faces},
-                                 {"remeshing", settings.is_isotropic ? "isotropic" : "edge_collapse"},
-                                 {"method", settings.method}};
-  if (settings.drops_nan) options["drop_nan"] = true;
-  if (!settings.size.empty()) options["size"] = settings.size;
-  if (truth) options["truth"] = {{"volume", truth->volume}, {"surface_area", truth->surface_area}};
-  return options.dump();
-}
-
 /// Catalogue names of the scans: the stem, with the ending added where two scans of the batch share it.
 std::vector<std::string> shape_names(const std::vector<fs::path>& scans, const std::string& given_name) {
   if (!given_name.empty()) {
@@ -129,11 +89,57 @@ std::string first_reason(const DigitizedScan& outcome) {
   return text;
 }
 
-bool is_same(const catalog::Provenance& a, const catalog::Provenance& b) {
-  return a.source_sha256 == b.source_sha256 && a.options == b.options && a.tool_version == b.tool_version;
+}  // namespace
+
+DigitizationOptions digitization_options(const ScanSettings& settings) {
+  if (settings.unit.empty())
+    throw catalog::UsageError("--unit: scans carry no unit and none is guessed; state it, such as --unit mm (one of " +
+                              accepted_units(Dimension::length) + ")");
+  const std::optional<double> unit = length_unit(settings.unit);
+  if (!unit)
+    throw catalog::UsageError("--unit: expected one of " + accepted_units(Dimension::length) + ", found '" +
+                              settings.unit + "'; state the unit of the scans' coordinates");
+  DigitizationOptions options;
+  options.metres_per_unit = *unit;
+  options.drops_nan_points = settings.drops_nan;
+  options.reconstruction.genus = settings.genus;
+  if (settings.method == "poisson") options.reconstruction.method = ReconstructionMethod::poisson;
+  if (settings.method == "alpha-wrap") options.reconstruction.method = ReconstructionMethod::alpha_wrap;
+  options.remeshing.face_limit = static_cast<std::size_t>(settings.faces);
+  if (settings.is_isotropic) options.remeshing.style = RemeshingStyle::isotropic;
+  if (!settings.size.empty()) {
+    options.sieve_size = parse_quantity(settings.size, Dimension::length);
+    constexpr double kSmallest = 1e-12,
+                     kLargest = 1e12;  // [m], as of scans: beyond, moments leave the range of numbers
+    if (!options.sieve_size || !(*options.sieve_size >= kSmallest && *options.sieve_size <= kLargest))
+      throw catalog::UsageError("--size: expected a length from 1e-12 to 1e12 m such as '30 mm', found '" +
+                                settings.size + "'");
+  }
+  return options;
 }
 
-}  // namespace
+std::string scan_options_text(const ScanSettings& settings, const std::optional<ScanTruth>& truth) {
+  nlohmann::ordered_json options{{"unit", settings.unit},
+                                 {"genus", settings.genus},
+                                 {"faces", settings.faces},
+                                 {"remeshing", settings.is_isotropic ? "isotropic" : "edge_collapse"},
+                                 {"method", settings.method}};
+  if (settings.drops_nan) options["drop_nan"] = true;
+  if (!settings.size.empty()) options["size"] = settings.size;
+  if (truth) options["truth"] = {{"volume", truth->volume}, {"surface_area", truth->surface_area}};
+  return options.dump();
+}
+
+std::string hash_of_files(const std::vector<fs::path>& files) {
+  if (files.size() == 1) return catalog::sha256_of_file(files[0]);
+  std::string list;
+  for (const fs::path& file : files) list += catalog::sha256_of_file(file) + "\n";
+  return catalog::sha256(list.data(), list.size());
+}
+
+bool have_one_source(const catalog::Provenance& a, const catalog::Provenance& b) {
+  return a.source_sha256 == b.source_sha256 && a.options == b.options && a.tool_version == b.tool_version;
+}
 
 // SQLite takes an empty file for a new database, but it may be anything of the user's.
 catalog::ShapeCatalog open_catalog(const fs::path& path) {
@@ -178,13 +184,14 @@ DigitizeBatch::Prepared DigitizeBatch::prepare(std::size_t s) {
   result.provenance = {scan.filename().string(), "", tool_version(), ""};
   const auto known = truths_.find(scan.filename().string());
   const auto truth = known == truths_.end() ? std::nullopt : std::optional(known->second);
-  result.provenance.options = options_text(options_.settings, truth);
+  result.provenance.options = scan_options_text(options_.settings, truth);
   result.reason = refusal_of(scan.string(), [&] {
     require_file(scan);
     result.provenance.source_sha256 = catalog::sha256_of_file(scan);
   });
   if (result.reason.empty()) {
-    if (const auto id = catalog_->find(names_[s]); id && is_same(catalog_->shape(*id).provenance, result.provenance)) {
+    if (const auto id = catalog_->find(names_[s]);
+        id && have_one_source(catalog_->shape(*id).provenance, result.provenance)) {
       result.status = "skipped";
       return result;
     }

@@ -36,6 +36,18 @@ struct DigitizedScan {
   bool is_bad() const { return status == "rejected" || status == "missing"; }
 };
 
+/// What the scans are digitised with. Throws UsageError for settings that cannot be.
+shape_pipeline::DigitizationOptions digitization_options(const ScanSettings& settings);
+
+/// Everything that changes the result, as JSON; part of the test whether a scan is done already.
+std::string scan_options_text(const ScanSettings& settings, const std::optional<shape_pipeline::ScanTruth>& truth);
+
+/// Hash of what a shape is made from: of one file its own, of several that of the list of theirs.
+std::string hash_of_files(const std::vector<std::filesystem::path>& files);
+
+/// Whether both come from the same bytes with the same options by the same version.
+bool have_one_source(const catalog::Provenance& a, const catalog::Provenance& b);
+
 /// The catalogue to fill, made where it is missing. Throws InputError for an empty file of that name.
 catalog::ShapeCatalog open_catalog(const std::filesystem::path& path);
 

@@ -101,10 +101,6 @@ std::string options_text(const MicrographSettings& settings) {
   return options.dump();
 }
 
-bool is_same(const catalog::Provenance& a, const catalog::Provenance& b) {
-  return a.source_sha256 == b.source_sha256 && a.options == b.options && a.tool_version == b.tool_version;
-}
-
 std::string summary_text(const std::string& name, const Micrograph& micrograph) {
   std::string text = formatted(
       "%s: %zu whole grains; left out: %zu cut by the border, %zu specks, %zu threads and films; a pixel is %.6g um",
@@ -218,7 +214,7 @@ bool MicrographBatch::is_done(const catalog::Provenance& provenance) {
   std::vector<DigitizedScan> found;
   for (int g = 1; g <= settings_.population; ++g) {
     const auto id = catalog_->find(shape_name(g));
-    if (!id || !is_same(catalog_->shape(*id).provenance, provenance)) return false;
+    if (!id || !have_one_source(catalog_->shape(*id).provenance, provenance)) return false;
     found.push_back({read_.front(), shape_name(g), "skipped", "", catalog_->summary(*id)});
   }
   outcomes_.insert(outcomes_.end(), found.begin(), found.end());

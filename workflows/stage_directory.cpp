@@ -24,6 +24,7 @@ const std::vector<Stage>& stages() {
       {"digitize", "scans (clouds, meshes) to watertight meshes in a catalogue"},
       {"generate", "built-in solids and crushed rocks into a catalogue"},
       {"family", "stretched, rounded, sharpened, smoothed versions of a stored shape"},
+      {"compare", "two captures of one particle: aligned, and what differs"},
       {"decompose", "meshes to convex parts at several levels of detail"},
       {"catalog", "list, show, query, sample, export shapes"},
       {"simulate", "run a scene"},

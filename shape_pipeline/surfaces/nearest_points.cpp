@@ -18,14 +18,37 @@ using Traits = CGAL::Search_traits_adapter<IndexedPoint, CGAL::First_of_pair_pro
                                            CGAL::Search_traits_3<Kernel>>;
 using Search = CGAL::Orthogonal_k_neighbor_search<Traits>;
 
-}  // namespace
-
-std::vector<std::vector<int>> nearest_points(const std::vector<catalog::Point>& points,
-                                             const std::vector<catalog::Point>& queries, int k) {
+std::vector<IndexedPoint> numbered(const std::vector<catalog::Point>& points) {
   std::vector<IndexedPoint> indexed;
   indexed.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i)
     indexed.emplace_back(Kernel::Point_3(points[i][0], points[i][1], points[i][2]), static_cast<int>(i));
+  return indexed;
+}
+
+}  // namespace
+
+struct NearestPoint::Tree {
+  Search::Tree search;
+};
+
+NearestPoint::NearestPoint(const std::vector<catalog::Point>& points) : tree_(std::make_unique<Tree>()) {
+  const std::vector<IndexedPoint> indexed = numbered(points);
+  tree_->search.insert(indexed.begin(), indexed.end());
+  tree_->search.build();
+}
+
+NearestPoint::~NearestPoint() = default;
+NearestPoint::NearestPoint(NearestPoint&&) noexcept = default;
+
+int NearestPoint::operator()(const catalog::Point& query) const {
+  const Search search(tree_->search, Kernel::Point_3(query[0], query[1], query[2]), 1);
+  return search.begin()->first.second;
+}
+
+std::vector<std::vector<int>> nearest_points(const std::vector<catalog::Point>& points,
+                                             const std::vector<catalog::Point>& queries, int k) {
+  const std::vector<IndexedPoint> indexed = numbered(points);
   const Search::Tree tree(indexed.begin(), indexed.end());
   std::vector<std::vector<int>> result(queries.size());
   for (std::size_t q = 0; q < queries.size(); ++q) {

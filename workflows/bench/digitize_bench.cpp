@@ -33,6 +33,13 @@ BenchPlan plan_digitize_bench(const BenchOptions& options) {
                               for (const std::string& name : present) meshes.push_back(solids->mesh(name));
                               return measure_stack(stack, meshes);
                             }});
+  for (const RegistrationCase& parts : kRegistrationCases)
+    plan.cases.push_back({"registration-" + parts.name, [parts] { return measure_registration(parts); }});
+  plan.cases.push_back({"registration-strangers", measure_strangers});
+  plan.cases.push_back({"plate", measure_plate});
+  if (std::filesystem::exists(options.scans / kCaptureFiles[0]) &&
+      std::filesystem::exists(options.scans / kCaptureFiles[1]))
+    plan.cases.push_back({"captures", [scans = options.scans] { return measure_captures(scans); }});
   for (const CloudPair& pair : kCloudPairs)
     if (std::filesystem::exists(options.scans / pair.cloud) && std::filesystem::exists(options.scans / pair.mesh))
       plan.cases.push_back(

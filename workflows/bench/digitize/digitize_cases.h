@@ -40,6 +40,25 @@ CaseResult measure_stack(const StackCase& stack, const std::vector<catalog::Tria
 /// Of random rocks, every fourth with a notch, and a ball.
 CaseResult measure_rock_stack(const StackCase& stack);
 
+/// Parts of rocks, each of 65 % of all directions, against the motions that parted them.
+struct RegistrationCase {
+  std::string name;
+  int parts;
+  double noise;  // standard deviation over the rock's size [-]
+};
+inline const std::vector<RegistrationCase> kRegistrationCases{{"two", 2, 1e-3}, {"three", 3, 1e-3}, {"noisy", 3, 4e-3}};
+CaseResult measure_registration(const RegistrationCase& wanted);
+
+/// Parts of two rocks, which must not be joined.
+CaseResult measure_strangers();
+
+/// Four rocks on a plate: plane, grains, volumes.
+CaseResult measure_plate();
+
+/// Two captures of one stone, torn as they come: repaired, aligned, what differs.
+inline const std::vector<std::string> kCaptureFiles{"epfl_capture_scanner.stl", "epfl_capture_iphone_lidar.stl"};
+CaseResult measure_captures(const std::filesystem::path& scans);
+
 /// Descriptors of bodies with closed forms: largest relative error.
 CaseResult measure_exact_descriptors();
 
