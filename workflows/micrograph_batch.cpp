@@ -16,6 +16,7 @@
 #include "workflows/batch_refusal.h"
 #include "workflows/micrograph_tables.h"
 #include "workflows/plain_name.h"
+#include "workflows/source_hash.h"
 #include "workflows/text_format.h"
 #include "workflows/units.h"
 
@@ -99,10 +100,6 @@ std::string options_text(const MicrographSettings& settings) {
   options["third_axis"] = settings.third_axis;
   options["seed"] = settings.seed;
   return options.dump();
-}
-
-bool is_same(const catalog::Provenance& a, const catalog::Provenance& b) {
-  return a.source_sha256 == b.source_sha256 && a.options == b.options && a.tool_version == b.tool_version;
 }
 
 std::string summary_text(const std::string& name, const Micrograph& micrograph) {
@@ -218,7 +215,7 @@ bool MicrographBatch::is_done(const catalog::Provenance& provenance) {
   std::vector<DigitizedScan> found;
   for (int g = 1; g <= settings_.population; ++g) {
     const auto id = catalog_->find(shape_name(g));
-    if (!id || !is_same(catalog_->shape(*id).provenance, provenance)) return false;
+    if (!id || !is_same_making(catalog_->shape(*id).provenance, provenance)) return false;
     found.push_back({read_.front(), shape_name(g), "skipped", "", catalog_->summary(*id)});
   }
   outcomes_.insert(outcomes_.end(), found.begin(), found.end());

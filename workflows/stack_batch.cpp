@@ -11,6 +11,7 @@
 
 #include "catalog/input_error.h"
 #include "workflows/batch_refusal.h"
+#include "workflows/source_hash.h"
 #include "workflows/units.h"
 
 namespace workflows {
@@ -81,23 +82,10 @@ std::string options_text(const DigitizeBatchOptions& batch, const StackSettings&
   return options.dump();
 }
 
-/// Of one file its own; of several that of the list of theirs.
-std::string source_hash(const fs::path& stack) {
-  const std::vector<fs::path> files = shape_pipeline::stack_sources(stack);
-  if (files.size() == 1) return catalog::sha256_of_file(files[0]);
-  std::string list;
-  for (const fs::path& file : files) list += catalog::sha256_of_file(file) + "\n";
-  return catalog::sha256(list.data(), list.size());
-}
-
 std::string grain_name(const std::string& stack, std::size_t number) {
   char text[24];
   std::snprintf(text, sizeof text, "_%04zu", number);
   return stack + text;
-}
-
-bool is_same(const catalog::Provenance& a, const catalog::Provenance& b) {
-  return a.source_sha256 == b.source_sha256 && a.options == b.options && a.tool_version == b.tool_version;
 }
 
 std::string summary_text(const std::string& name, const shape_pipeline::StackSummary& summary) {
@@ -148,8 +136,8 @@ void StackBatch::run() {
 void StackBatch::digitize(const fs::path& stack) {
   const std::string name = stack_name(stack);
   const fs::path clean = stack.has_filename() ? stack : stack.parent_path();
-  const catalog::Provenance provenance{clean.filename().string(), source_hash(stack), tool_version(),
-                                       options_text(options_, settings_)};
+  const catalog::Provenance provenance{clean.filename().string(), hash_of_files(shape_pipeline::stack_sources(stack)),
+                                       tool_version(), options_text(options_, settings_)};
   if (is_done(name, provenance)) return;
   std::vector<shape_pipeline::StackGrain> grains;  // their number, which the first already tells, is known at the end
   const shape_pipeline::StackSummary summary = shape_pipeline::digitize_stack(
@@ -171,7 +159,7 @@ bool StackBatch::is_done(const std::string& name, const catalog::Provenance& pro
     const auto id = catalog_.find(grain_name(name, g));
     if (!id) return false;
     const catalog::ShapeRecord shape = catalog_.shape(*id);
-    if (!is_same(shape.provenance, provenance)) return false;
+    if (!is_same_making(shape.provenance, provenance)) return false;
     for (const catalog::Check& check : shape.checks)
       if (check.name == kSizeCheck) expected = static_cast<std::size_t>(check.figure);
     found.push_back({provenance.source_file, grain_name(name, g), "skipped", "", catalog_.summary(*id)});

@@ -33,6 +33,12 @@ BenchPlan plan_digitize_bench(const BenchOptions& options) {
                               for (const std::string& name : present) meshes.push_back(solids->mesh(name));
                               return measure_stack(stack, meshes);
                             }});
+  for (const TurntableCase& turntable : kTurntableCases)
+    plan.cases.push_back({turntable.name, [solids, turntable] {
+                            auto measured = turntable_rocks();
+                            if (solids->has("stone10")) measured.emplace_back("stone10", solids->mesh("stone10"));
+                            return measure_turntable(turntable, measured);
+                          }});
   for (const CloudPair& pair : kCloudPairs)
     if (std::filesystem::exists(options.scans / pair.cloud) && std::filesystem::exists(options.scans / pair.mesh))
       plan.cases.push_back(

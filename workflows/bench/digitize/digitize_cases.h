@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "catalog/triangle_mesh.h"
@@ -39,6 +40,19 @@ inline const std::vector<StackCase> kScanStackCases{
 CaseResult measure_stack(const StackCase& stack, const std::vector<catalog::TriangleMesh>& meshes);
 /// Of random rocks, every fourth with a notch, and a ball.
 CaseResult measure_rock_stack(const StackCase& stack);
+
+/// The visual hull of a grain on a virtual turntable against the best that its views could give.
+struct TurntableCase {
+  std::string name;
+  int views;
+};
+inline const std::vector<TurntableCase> kTurntableCases{
+    {"turntable-12", 12}, {"turntable-36", 36}, {"turntable-72", 72}};
+/// Of each of these solids.
+CaseResult measure_turntable(const TurntableCase& turntable,
+                             const std::vector<std::pair<std::string, catalog::TriangleMesh>>& solids);
+/// A random rock, one with a notch, a flat one: with their names.
+std::vector<std::pair<std::string, catalog::TriangleMesh>> turntable_rocks();
 
 /// Descriptors of bodies with closed forms: largest relative error.
 CaseResult measure_exact_descriptors();
