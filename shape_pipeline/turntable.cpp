@@ -33,9 +33,9 @@ constexpr double kSamePixel = 1e-6;            // largest relative difference of
 
 std::vector<fs::path> image_files(const fs::path& folder) {
   if (!fs::is_directory(folder)) refuse_file(folder, "", "is no folder", "name the folder of the turntable's images");
-  std::vector<fs::path> images =
-      files_in_natural_order(folder, {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"});
-  if (images.empty()) refuse_file(folder, "", "no images (PNG, JPEG, BMP, TIFF) in this folder", "put one a view there");
+  std::vector<fs::path> images = files_in_natural_order(folder, {".png", ".jpg", ".jpeg", ".bmp", ".tif", ".tiff"});
+  if (images.empty())
+    refuse_file(folder, "", "no images (PNG, JPEG, BMP, TIFF) in this folder", "put one a view there");
   return images;
 }
 
@@ -61,8 +61,8 @@ void refuse_odd_sizes(TurntableViews& views) {
   std::map<std::pair<int, int>, int> sizes;
   for (std::size_t k = 0; k < views.images.size(); ++k)
     if (views.refusals[k].empty()) ++sizes[{views.images[k].width, views.images[k].height}];
-  const auto usual = std::max_element(sizes.begin(), sizes.end(),
-                                      [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto usual =
+      std::max_element(sizes.begin(), sizes.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   for (std::size_t k = 0; k < views.images.size(); ++k) {
     const GreyImage& image = views.images[k];
     if (!views.refusals[k].empty() || std::pair(image.width, image.height) == usual->first) continue;
@@ -118,8 +118,8 @@ catalog::Check settle_axis(TurntableCamera& camera, const SeenViews& seen, const
   const AxisEstimate axis = estimated_axis(camera, seen.angles, extents, name);
   camera.axis_column = axis.column;
   char text[120];
-  std::snprintf(text, sizeof text, "column of the axis, estimated from the silhouettes; what the fit leaves: %.2f pixels",
-                axis.scatter);
+  std::snprintf(text, sizeof text,
+                "column of the axis, estimated from the silhouettes; what the fit leaves: %.2f pixels", axis.scatter);
   return {"turntable_axis", true, axis.column, text};
 }
 
@@ -140,7 +140,8 @@ VisualHull hull_of(const std::vector<HullView>& views, const std::string& name, 
   std::optional<VisualHull> hull = visual_hull(views, cells);
   if (!hull) refuse_file(name, "", "the views do not bound the grain", "take views all about it");
   if (hull->mesh.faces.empty())
-    refuse_file(name, "", "the silhouettes have no point in common", "correct the axis, the angles or the order of views");
+    refuse_file(name, "", "the silhouettes have no point in common",
+                "correct the axis, the angles or the order of views");
   return *std::move(hull);
 }
 

@@ -33,7 +33,8 @@ struct TurntableViews {
 std::vector<std::filesystem::path> turntable_sources(const std::filesystem::path& folder);
 
 /// The images of a folder with the camera of its turntable.json, or an orthographic one of the options' pixel size.
-/// Throws InputError, the file named, where neither is given or both differ, and for a list of angles of another length.
+/// Throws InputError, the file named, where neither is given or both differ, and for a list of angles of another
+/// length.
 TurntableViews read_turntable(const std::filesystem::path& folder, const TurntableOptions& options);
 
 /// A grain from silhouettes: its visual hull, which is never smaller than the grain where the views are right: hollows

@@ -133,8 +133,8 @@ TurntableViews virtual_turntable(const catalog::TriangleMesh& mesh, const Turnta
   for (std::size_t k = 0; k < angles.size(); ++k) {
     GreyImage image = mesh_coverage(grain, {known, angles[k], recipe.side}, recipe.side, recipe.side);
     for (float& value : image.values)
-      value = static_cast<float>(std::clamp(
-          std::round(ground + value * (figure - ground) + recipe.noise * random.normal()), 0.0, 255.0));
+      value = static_cast<float>(
+          std::clamp(std::round(ground + value * (figure - ground) + recipe.noise * random.normal()), 0.0, 255.0));
     views.names.push_back("view_" + std::to_string(k + 1) + ".png");
     views.images.push_back(std::move(image));
     views.refusals.emplace_back();
@@ -156,7 +156,8 @@ void write_turntable(const std::filesystem::path& folder, const TurntableViews& 
   }
   std::ofstream file(folder / "turntable.json");
   file << sidecar.dump(2) << "\n";
-  if (!file.flush()) refuse_file(folder / "turntable.json", "", "cannot be written", "check the folder and the space left");
+  if (!file.flush())
+    refuse_file(folder / "turntable.json", "", "cannot be written", "check the folder and the space left");
 }
 
 double best_hull_volume(const catalog::TriangleMesh& mesh, int views, int slices) {

@@ -10,12 +10,12 @@ namespace shape_pipeline {
 
 struct TurntableRecipe {
   int views = 36;
-  int side = 256;           // of the square images [pixels]
-  double fill = 0.8;        // share of the side that the grain's largest extent takes, across or along the axis
-  double axis_offset = 0;   // of the axis from the middle column [pixels]
+  int side = 256;               // of the square images [pixels]
+  double fill = 0.8;            // share of the side that the grain's largest extent takes, across or along the axis
+  double axis_offset = 0;       // of the axis from the middle column [pixels]
   bool is_perspective = false;  // from 6 sizes of the grain away
-  double elevation = 0;     // [rad]
-  double noise = 3;         // standard deviation [grey values]
+  double elevation = 0;         // [rad]
+  double noise = 3;             // standard deviation [grey values]
   double dark = 30, bright = 210;
   bool is_bright_grain = false;  // on a dark background
   std::uint64_t seed = 1;

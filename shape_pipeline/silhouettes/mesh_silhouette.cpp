@@ -49,8 +49,8 @@ Raster<float> mesh_coverage(const catalog::TriangleMesh& mesh, const TurntablePr
   for (const catalog::Triangle& face : mesh.faces) {
     std::array<ImagePoint, 3> p;
     for (std::size_t i = 0; i < 3; ++i) p[i] = seen[static_cast<std::size_t>(face[i])];
-    const double turn = (p[1].column - p[0].column) * (p[2].row - p[0].row) -
-                        (p[2].column - p[0].column) * (p[1].row - p[0].row);
+    const double turn =
+        (p[1].column - p[0].column) * (p[2].row - p[0].row) - (p[2].column - p[0].column) * (p[1].row - p[0].row);
     if (turn < 0) add_triangle(p, lines);
   }
   Raster<float> coverage(width, height);

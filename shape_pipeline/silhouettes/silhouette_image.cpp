@@ -14,10 +14,10 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr int kPit = 9;                    // [pixels]
+constexpr int kPit = 9;                     // [pixels]
 constexpr double kLeastSeparability = 0.7;  // [-]; Otsu parts one Gaussian hump at 0.64
-constexpr double kLeastContrast = 10;      // [grey values of 255]
-constexpr double kBand = 2.5;              // [pixels] about the outline, where distances are exact
+constexpr double kLeastContrast = 10;       // [grey values of 255]
+constexpr double kBand = 2.5;               // [pixels] about the outline, where distances are exact
 
 GreyClasses classes_of(const GreyImage& image) {
   GreyVolume volume;

@@ -9,8 +9,8 @@ namespace shape_pipeline {
 
 /// One grain's silhouette, finer than pixels; (0, 0) at the upper left corner of the image, rows downwards.
 struct SilhouetteImage {
-  DistanceImage distance;  // of each pixel's centre to the outline, positive inside [pixels]: exact within 2.5 pixels of
-                           // the outline, to about half a pixel beyond
+  DistanceImage distance;  // of each pixel's centre to the outline, positive inside [pixels]: exact within 2.5 pixels
+                           // of the outline, to about half a pixel beyond
   double left = 0, right = 0, top = 0, bottom = 0;  // of the outline
   double area = 0;                                  // less its holes [pixels^2]
 

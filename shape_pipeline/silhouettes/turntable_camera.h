@@ -14,9 +14,9 @@ namespace shape_pipeline {
 /// columns run along x. It looks at a point of the axis, the origin, and the axis is upright in the image (no roll).
 /// Pixel coordinates are continuous, (0, 0) at the upper left corner of the image, rows downwards.
 struct TurntableCamera {
-  bool is_perspective = false;  // else orthographic (telecentric)
-  double pixel_size = 0;        // [m], orthographic
-  double focal_length = 0;      // [pixels], perspective
+  bool is_perspective = false;              // else orthographic (telecentric)
+  double pixel_size = 0;                    // [m], orthographic
+  double focal_length = 0;                  // [pixels], perspective
   std::array<double, 2> principal_point{};  // column, row, perspective
   double distance = 0;                      // from the lens to the origin [m], perspective
   double elevation = 0;                     // of the camera, seen from the origin, above the horizon [rad]

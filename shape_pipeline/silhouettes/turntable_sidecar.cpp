@@ -40,7 +40,8 @@ class Sidecar {
                                                ? std::vector<std::string>{"focal_length", "principal_point", "distance"}
                                                : std::vector<std::string>{};
     for (const std::string& key : other)
-      if (has(key)) refuse_file(path, key, "is for a perspective camera, \"pixel_size\" for an orthographic one", kExample);
+      if (has(key))
+        refuse_file(path, key, "is for a perspective camera, \"pixel_size\" for an orthographic one", kExample);
   }
 
   bool has(const std::string& key) const { return values_.contains(key); }

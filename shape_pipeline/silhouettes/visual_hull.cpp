@@ -10,11 +10,11 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr int kFirstCells = 64;     // a side of the grid that finds where the hull is
-constexpr int kBlock = 8;           // grid points a side of a block
-constexpr double kSlope = 1.3;      // most that a depth may change over a distance, in perspective far off the axis
-constexpr double kFarError = 2;     // [pixels] of distances far from the outline
-constexpr double kSpread = 1.6;     // box of the first grid over the widest silhouette
+constexpr int kFirstCells = 64;  // a side of the grid that finds where the hull is
+constexpr int kBlock = 8;        // grid points a side of a block
+constexpr double kSlope = 1.3;   // most that a depth may change over a distance, in perspective far off the axis
+constexpr double kFarError = 2;  // [pixels] of distances far from the outline
+constexpr double kSpread = 1.6;  // box of the first grid over the widest silhouette
 
 /// A box of equal cells, its first point at `origin`.
 struct HullGrid {

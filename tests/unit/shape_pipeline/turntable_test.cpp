@@ -75,8 +75,8 @@ TEST(BestHull, IsExactForBoxAndBall) {
   const catalog::TriangleMesh ball = test_support::uv_sphere(1, 60);
   const double volume = catalog::mass_properties(ball).volume;
   for (const int views : {4, 12})
-    EXPECT_NEAR(best_hull_volume(ball, views, 400) / volume, views / std::numbers::pi * std::tan(std::numbers::pi / views),
-                2e-3);
+    EXPECT_NEAR(best_hull_volume(ball, views, 400) / volume,
+                views / std::numbers::pi * std::tan(std::numbers::pi / views), 2e-3);
 }
 
 // 100 pixels a grain: outlines to a twentieth of a pixel or so are 0.3 % of the volume; goal 1 %.
@@ -197,7 +197,8 @@ TEST(Turntable, SidecarsAreRefusedByKey) {
     EXPECT_NE(message.find(expected), std::string::npos) << text << ": " << message;
     EXPECT_NE(message.find("turntable.json"), std::string::npos) << message;
   }
-  EXPECT_EQ(found(R"({"unit": "mm", "pixel_size": 0.5, "turn": "clockwise", "angles": [0, 90], "axis_column": 7})"), "");
+  EXPECT_EQ(found(R"({"unit": "mm", "pixel_size": 0.5, "turn": "clockwise", "angles": [0, 90], "axis_column": 7})"),
+            "");
   const TurntableCamera camera = read_turntable_camera(folder / "turntable.json");
   EXPECT_DOUBLE_EQ(camera.pixel_size, 5e-4);
   EXPECT_NEAR(view_angles(camera, 2)[1], -std::numbers::pi / 2, 1e-12);

@@ -45,9 +45,15 @@ CaseResult measure_rock_stack(const StackCase& stack);
 struct TurntableCase {
   std::string name;
   int views;
+  int side = 384;        // of the images [pixels]
+  double noise = 3;      // standard deviation, of a contrast of 180 [grey values]
+  double elevation = 0;  // of a perspective camera [rad]; 0: an orthographic one
 };
-inline const std::vector<TurntableCase> kTurntableCases{
-    {"turntable-12", 12}, {"turntable-36", 36}, {"turntable-72", 72}};
+inline const std::vector<TurntableCase> kTurntableCases{{"turntable-12", 12},
+                                                        {"turntable-36", 36},
+                                                        {"turntable-72", 72},
+                                                        {"turntable-36-coarse", 36, 128, 15},
+                                                        {"turntable-36-raised", 36, 384, 3, 0.35}};
 /// Of each of these solids.
 CaseResult measure_turntable(const TurntableCase& turntable,
                              const std::vector<std::pair<std::string, catalog::TriangleMesh>>& solids);
