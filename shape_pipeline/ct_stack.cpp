@@ -11,7 +11,6 @@
 
 #include "shape_pipeline/digitization.h"
 #include "shape_pipeline/mesh_topology.h"
-#include "shape_pipeline/reading/folder_files.h"
 #include "shape_pipeline/reading/scan_bytes.h"
 #include "shape_pipeline/shape_descriptors.h"
 #include "shape_pipeline/solid_checks.h"
@@ -138,27 +137,6 @@ std::vector<std::size_t> whole_grains(const GrainLabels& labels, StackSummary& s
 }
 
 }  // namespace
-
-std::string lower_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending;
-}
-
-bool has_stack_ending(const std::filesystem::path& path) {
-  const std::string ending = lower_ending(path);
-  return ending == ".tif" || ending == ".tiff" || ending == ".nrrd" || ending == ".raw";
-}
-
-std::vector<std::filesystem::path> stack_sources(const std::filesystem::path& path) {
-  if (!std::filesystem::is_directory(path)) {
-    if (lower_ending(path) != ".raw") return {path};
-    return {path, std::filesystem::path(path).replace_extension(".json")};
-  }
-  std::vector<std::filesystem::path> slices = files_in_natural_order(path, {".tif", ".tiff"});
-  if (slices.empty()) refuse_file(path, "", "no TIFF slices in this folder", "put one TIFF a slice there");
-  return slices;
-}
 
 StackSummary digitize_stack(const std::filesystem::path& path, const StackOptions& options,
                             const std::function<void(StackGrain&&)>& take) {

@@ -11,6 +11,7 @@
 
 #include "catalog/shape_record.h"
 #include "shape_pipeline/mesh_remeshing.h"
+#include "shape_pipeline/stack_sources.h"
 #include "shape_pipeline/volumes/grey_volume.h"
 
 namespace shape_pipeline {
@@ -54,15 +55,5 @@ StackSummary digitize_stack(const std::filesystem::path& path, const StackOption
 /// The same of a tomogram in memory, which messages call `name`.
 StackSummary digitize_stack(GreyVolume volume, const std::string& name, const StackOptions& options,
                             const std::function<void(StackGrain&&)>& take);
-
-/// True for the endings of stacks that no other scan has: tif, tiff, nrrd, raw.
-bool has_stack_ending(const std::filesystem::path& path);
-
-/// The ending with its dot, in lower case.
-std::string lower_ending(const std::filesystem::path& path);
-
-/// The files that make a stack, in the order of its slices: a folder's TIFF files in natural order (2 before 10), a raw
-/// file and its sidecar, else the file itself. Throws InputError for a folder without TIFF files.
-std::vector<std::filesystem::path> stack_sources(const std::filesystem::path& path);
 
 }  // namespace shape_pipeline

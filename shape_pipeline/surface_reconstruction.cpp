@@ -8,13 +8,13 @@
 
 #include "shape_pipeline/mesh_topology.h"
 #include "shape_pipeline/solid_checks.h"
+#include "shape_pipeline/surface_distance.h"
 #include "shape_pipeline/surfaces/alpha_wrap.h"
 #include "shape_pipeline/surfaces/cloud_cleaning.h"
 #include "shape_pipeline/surfaces/cloud_normals.h"
 #include "shape_pipeline/surfaces/cloud_projection.h"
 #include "shape_pipeline/surfaces/nearest_points.h"
 #include "shape_pipeline/surfaces/poisson_surface.h"
-#include "shape_pipeline/surfaces/surface_distance.h"
 #include "shape_pipeline/surfaces/vector3.h"
 #include "shape_pipeline/surfaces/winding_volume.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "shape_pipeline/ct_stack.h"
+#include "shape_pipeline/stack_sources.h"
 
 namespace shape_pipeline {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "shape_pipeline/surface_distance.h"
 #include "shape_pipeline/surfaces/nearest_points.h"
-#include "shape_pipeline/surfaces/surface_distance.h"
 #include "shape_pipeline/surfaces/vector3.h"
 #include "shape_pipeline/surfaces/winding_volume.h"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "shape_pipeline/mesh_topology.h"
+#include "shape_pipeline/surface_distance.h"
 #include "shape_pipeline/surfaces/small_linear_program.h"
-#include "shape_pipeline/surfaces/surface_distance.h"
 #include "shape_pipeline/surfaces/vector3.h"
 
 namespace shape_pipeline {

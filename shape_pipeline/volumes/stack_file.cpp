@@ -9,8 +9,8 @@
 #include <fstream>
 #include <utility>
 
-#include "shape_pipeline/ct_stack.h"
 #include "shape_pipeline/reading/scan_bytes.h"
+#include "shape_pipeline/stack_sources.h"
 
 namespace shape_pipeline {
 namespace {

@@ -7,8 +7,8 @@
 #include <sstream>
 #include <string>
 
-#include "shape_pipeline/ct_stack.h"
 #include "shape_pipeline/reading/scan_bytes.h"
+#include "shape_pipeline/stack_sources.h"
 #include "shape_pipeline/volumes/stack_file.h"
 
 namespace shape_pipeline {

@@ -12,7 +12,7 @@
 #include "shape_pipeline/cloud_file.h"
 #include "shape_pipeline/mesh_file.h"
 #include "shape_pipeline/mesh_topology.h"
-#include "shape_pipeline/surfaces/surface_distance.h"
+#include "shape_pipeline/surface_distance.h"
 #include "tests/support/sample_meshes.h"
 #include "tests/support/sample_shapes.h"
 #include "tests/support/temporary_folder.h"

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "shape_pipeline/mesh_topology.h"
+#include "shape_pipeline/surface_distance.h"
 #include "shape_pipeline/surfaces/random_stream.h"
-#include "shape_pipeline/surfaces/surface_distance.h"
 #include "shape_pipeline/surfaces/winding_volume.h"
 #include "shape_pipeline/virtual_scan.h"
 #include "tests/support/sample_meshes.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shape_pipeline/surfaces/surface_distance.h"
+#include "shape_pipeline/surface_distance.h"
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
