@@ -8,6 +8,7 @@
 #include "shape_pipeline/reading/scan_bytes.h"
 
 namespace shape_pipeline {
+
 std::string lower_ending(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });

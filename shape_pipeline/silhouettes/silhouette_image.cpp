@@ -17,6 +17,7 @@ namespace {
 constexpr int kPit = 9;                     // [pixels]
 constexpr double kLeastSeparability = 0.7;  // [-]; Otsu parts one Gaussian hump at 0.64
 constexpr double kLeastContrast = 10;       // [grey values of 255]
+constexpr double kSmoothing = 1;            // [pixels]: a hull shrinks by the noise of every outline
 constexpr double kBand = 2.5;               // [pixels] about the outline, where distances are exact
 
 GreyClasses classes_of(const GreyImage& image) {
@@ -112,7 +113,7 @@ double SilhouetteImage::at(double column, double row) const {
 }
 
 SilhouetteImage silhouette_of(const GreyImage& image, const std::string& name) {
-  const Raster<float> field = grain_field(image, name);
+  const Raster<float> field = grain_field(blurred(image, kSmoothing), name);
   const std::vector<Outline> outlines = level_lines(field);
   SilhouetteImage result;
   result.left = image.width;

@@ -20,8 +20,8 @@ struct SilhouetteImage {
 
 /// The largest region, its holes kept (but pits of at most 9 pixels, which are noise), that stands out from the border
 /// in grey: dark on bright or bright on dark. The outline runs where the grey is halfway between the means of Otsu's
-/// classes (1979). Throws InputError, calling the image `name`, where nothing stands out or the region touches the
-/// border.
+/// classes (1979), after a Gaussian of 1 pixel. Throws InputError, calling the image `name`, where nothing stands out
+/// or the region touches the border.
 SilhouetteImage silhouette_of(const GreyImage& image, const std::string& name);
 
 }  // namespace shape_pipeline
