@@ -35,7 +35,7 @@ struct DecompositionOptions {
   // on the machine. 0: none.
   double time_budget = 0;
   double smallest_thickness = 0.1;  // of a part / thickness of the whole, of several bodies of the thickest
-  double smallest_volume = 0.01;    // of a part / volume of the whole
+  double smallest_volume = 0.01;    // of a part / volume of the whole, of several bodies of the largest
   int threads = 0;                  // 0: as many as the machine has
 };
 

@@ -104,7 +104,7 @@ void declare_options(CLI::App& app, CommandLine& line) {
       ->check(share())
       ->capture_default_str();
   app.add_option("--smallest-volume", quality.smallest_volume,
-                 "of a part, as a share of that of the shape; from 0 to below 1")
+                 "of a part, as a share of that of the shape (of several bodies the largest); from 0 to below 1")
       ->check(share())
       ->capture_default_str();
   add_seed(app, "--seed", quality.seed, "of the random numbers; the same seed gives the same bytes");
@@ -149,8 +149,10 @@ Scans digitized(const CommandLine&) {
 
 /// By its ending, also where this build reads no scans.
 bool looks_like_a_scan(const std::filesystem::path& path) {
-  const std::string ending = path.extension().string();
-  const std::vector<std::string> endings{".stl", ".obj", ".off", ".ply", ".tab", ".pcd", ".xyz", ".pwn"};
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::vector<std::string> endings{".stl", ".obj", ".off", ".ply", ".tab",  ".pcd",  ".xyz",
+                                         ".pwn", ".txt", ".asc", ".tif", ".tiff", ".nrrd", ".raw"};
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 

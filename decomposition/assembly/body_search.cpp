@@ -47,12 +47,13 @@ void BodySearch::find_bodies() {
   for (catalog::TriangleMesh& body : separate_bodies(mesh_)) {
     const double volume = catalog::volume_moments(body).volume, thickness = thickness_of(body);
     all.push_back({std::move(body), volume, thickness});
+    largest_ = std::max(largest_, volume);
     thickest_ = std::max(thickest_, thickness);
   }
   std::vector<const Body*> small;
   std::vector<Vec3> centres;
   for (const Body& body : all) {
-    const bool is_worth_a_part = body.volume >= kRoomForAPart * options_.smallest_volume * volume_ &&
+    const bool is_worth_a_part = body.volume >= kRoomForAPart * options_.smallest_volume * largest_ &&
                                  body.thickness >= kRoomForAPart * options_.smallest_thickness * thickest_;
     if (!is_worth_a_part) {
       small.push_back(&body);
@@ -87,12 +88,16 @@ BodySearch::Group BodySearch::all_bodies() const {
 
 LevelSearch& BodySearch::search_of(const Group& group) {
   if (const auto known = searches_.find(group); known != searches_.end()) return known->second;
-  if (group == all_bodies()) return searches_.try_emplace(group, mesh_, options_).first->second;
+  if (bodies() < 2) return searches_.try_emplace(group, mesh_, options_).first->second;
+  // The smallest part is a share of the largest body, for all of them.
+  DecompositionOptions options = options_;
+  if (group == all_bodies()) {
+    options.smallest_volume *= largest_ / volume_;
+    return searches_.try_emplace(group, mesh_, options).first->second;
+  }
   catalog::TriangleMesh mesh;
   for (const int body : group) add_mesh(bodies_[static_cast<std::size_t>(body)].mesh, mesh);
-  // The smallest part is a share of the whole, here as there.
-  DecompositionOptions options = options_;
-  options.smallest_volume *= volume_ / catalog::volume_moments(mesh).volume;
+  options.smallest_volume *= largest_ / catalog::volume_moments(mesh).volume;
   options.smallest_thickness *= thickest_ / thickness_of(mesh);
   return searches_.try_emplace(group, mesh, options).first->second;
 }

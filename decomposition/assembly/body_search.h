@@ -42,7 +42,8 @@ class BodySearch {
 
   const catalog::TriangleMesh& mesh_;
   DecompositionOptions options_;
-  double volume_, thickest_ = 0;  // of all bodies together [m3], of the thickest one [m]
+  double volume_;                      // of all bodies together [m3]
+  double largest_ = 0, thickest_ = 0;  // volume and thickness of the body with most of it [m3], [m]
   std::vector<Body> bodies_;
   std::map<Group, LevelSearch> searches_;
   std::map<int, FoundLevel> levels_;

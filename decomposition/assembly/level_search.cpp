@@ -141,12 +141,16 @@ LevelSearch::Finish LevelSearch::finished(Partition partition) const {
     if (std::abs(ratio - 1) < kVolumeAgreement) break;
     scale_volume(partition, centre, ratio);
   }
-  finish.keeps_rules = std::all_of(finish.parts.begin(), finish.parts.end(), [&](const BuiltPart& part) {
+  finish.keeps_rules = keep_rules(finish.parts);
+  finish.parts = in_frame_of_mesh(std::move(finish.parts));
+  return finish;
+}
+
+bool LevelSearch::keep_rules(const std::vector<BuiltPart>& parts) const {
+  return std::all_of(parts.begin(), parts.end(), [&](const BuiltPart& part) {
     const LevelFigures figure = figures({part.part});
     return figure.shortest_edge >= race_.rules().shortest_edge && figure.narrowest_face >= race_.rules().narrowest_face;
   });
-  finish.parts = in_frame_of_mesh(std::move(finish.parts));
-  return finish;
 }
 
 std::vector<BuiltPart> LevelSearch::built(const Partition& partition) const {
@@ -331,8 +335,8 @@ FoundLevel LevelSearch::searched(int parts_asked) {
     std::vector<BuiltPart> parts =
         options_.mode == FitMode::enclosing ? found_as_hulls(cut, count) : std::vector<BuiltPart>{};
     const bool is_apart = !parts.empty() || fits_better_apart(cut, count);
-    bool keeps_rules = true;
     if (parts.empty() && is_apart) parts = found_apart(cut, count);
+    bool keeps_rules = keep_rules(parts);
     if (!is_apart) {
       Finish finish = found_jointly(count);
       parts = std::move(finish.parts);

@@ -47,6 +47,7 @@ class LevelSearch {
   };
   FoundLevel searched(int parts_asked);
   Finish finished(Partition partition) const;
+  bool keep_rules(const std::vector<BuiltPart>& parts) const;
   std::vector<BuiltPart> built(const Partition& partition) const;
   Finish found_jointly(int count);
   bool fits_better_apart(const CutTree& tree, int count);

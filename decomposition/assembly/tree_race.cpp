@@ -20,7 +20,7 @@ constexpr double kSearchCells = 2.5e5;  // for comparing cuts: what fits the cac
 // misfit there foretells that at twice as many: correlation 0.5 to 0.8 on rocks).
 constexpr double kTrees = 8, kTreesGoingOn = 4;
 constexpr double kTreesEnclosing = 5;   // their hulls take more time and scatter less
-constexpr double kTreesOfFaceted = 2;   // the many facet planes to try make these trees dear, and alike
+constexpr double kTreesOfFaceted = 3;   // the many facet planes to try make these trees dear, and alike
 constexpr double kTreesBeyondMany = 6;  // at more than kManyParts, where the choice at kFirstChoice foretells less ...
 constexpr double kTreesOfVeryMany = 3;  // ... but at more than kVeryManyParts trees are dear
 constexpr int kFirstChoice = 4, kManyParts = 8, kVeryManyParts = 16;
@@ -179,13 +179,19 @@ const CutTree& TreeRace::stage(std::size_t tree, int count) {
 }
 
 const CutTree& TreeRace::first_tree(int count) {
-  const CutTree& first = stage(0, count);
-  const double misfit = misfit_of(first, count);
-  if (!solid_.is_faceted() || plan_.encloses || misfit < kIllFitting * solid_.volume()) return first;
+  const CutTree* best = &stage(0, count);
+  if (!solid_.is_faceted() || plan_.encloses) return *best;
+  double misfit = misfit_of(*best, count);
+  for (std::size_t tree = 1; tree < trees_.size() && misfit > 0; ++tree)
+    if (const CutTree& next = stage(tree, count); misfit_of(next, count) < misfit) {
+      best = &next;
+      misfit = misfit_of(next, count);
+    }
+  if (misfit < kIllFitting * solid_.volume()) return *best;
   SearchPlan plan = search_plan(0);
   plan.compares_hulls = true;
   const CutTree& other = grown(tree_of_hulls_, count, plan);
-  return misfit_of(other, count) < misfit ? other : first;
+  return misfit_of(other, count) < misfit ? other : *best;
 }
 
 /// Pieces that a tree gets before its least useful cuts are merged away again: more than asked for where effort allows.

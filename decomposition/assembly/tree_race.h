@@ -37,8 +37,8 @@ class TreeRace {
   const std::vector<Start>& starts(int count);
   /// A tree when it had so many pieces, or as many as it can have.
   const CutTree& stage(std::size_t tree, int count);
-  /// The first tree; of a drawn solid that it leaves in ill-fitting pieces, one that compares hulls, if that does
-  /// better.
+  /// The first tree; of a drawn solid the one whose pieces fit best, and where all leave it in ill-fitting pieces one
+  /// that compares hulls, if that does better.
   const CutTree& first_tree(int count);
 
   const Solid& solid() const { return solid_; }

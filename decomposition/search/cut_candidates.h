@@ -32,9 +32,9 @@ struct CutScore {
 };
 
 /// Random directions times quantiles of the points along them. Of a drawn solid then its own facet planes at re-entrant
-/// edges; of a scan, unless hulls are
-/// compared, the planes through the piece's centroid across its principal directions, among which are its planes
-/// of symmetry, if it has any, and planes into its valleys: where its surface lies deepest below the stand-in.
+/// edges. Of a scan, unless hulls are compared, the planes through the piece's centroid across its principal
+/// directions, among which are its planes of symmetry, if it has any, and planes into its valleys, where its surface
+/// lies deepest below the stand-in, and from one valley to another.
 std::vector<Plane> candidate_planes(const CutTrial& trial, Random& random);
 
 /// The cut moved and turned a little: `reach` is the largest move / size of the piece, which has that middle.

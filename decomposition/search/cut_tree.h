@@ -98,7 +98,6 @@ class CutTree {
   Node* leaf_without_gain();
   void make_cut(Node& leaf);
   bool has_whole_halves(const Node& node) const;
-  double loss_of_merging(const Node& node) const;
   std::vector<std::vector<double>> least_errors(int count);
   void mark_merged(int node, int count, const std::vector<std::vector<double>>& least);
   void merge(Node& divided);

@@ -14,6 +14,10 @@ namespace {
 constexpr double kMostCellsAlong = 600;  // bounds the memory for needles and plates
 constexpr int kMostFacets = 400;         // of a solid that counts as faceted
 constexpr double kCoplanar = 1e-10;      // share of the diagonal: triangles this flat are one facet
+// Points spread by equal steps: columns of a drawn solid may be equally long, and be hit at one height.
+constexpr double kLeastSpread = 0.5;
+constexpr std::size_t kFewPlaces = 20;  // lie anyhow
+constexpr double kOpposite = 1e-9;      // sum of the normals of two faces that touch
 constexpr double kReentrant = 1e-6;  // share of the diagonal: a neighbour this far above a face makes a re-entrant edge
 constexpr int kPadding = 3;          // empty cells around the solid, so that look-ups near it need no bounds
 
@@ -27,6 +31,36 @@ ZInterval clip_by_plane(const Plane& plane, double x, double y, ZInterval range)
   else if (rest < 0)
     range.high = range.low;
   return range;
+}
+
+struct PointsAlong {
+  std::vector<Vec3> places;
+  double spread = 0;  // variance of where they lie in their stretch, over that of even places [-]
+};
+
+/// In equal steps of cumulative length: stratified, in proportion to the volume. `start`: of the first, in steps.
+PointsAlong points_along(const std::vector<Stretch>& stretches, double step, double start) {
+  PointsAlong result;
+  double next = step * start, passed = 0, sum = 0, squares = 0;
+  for (const Stretch& s : stretches) {
+    const double length = s.high - s.low;
+    for (; next < passed + length; next += step) {
+      result.places.push_back({s.x, s.y, s.low + next - passed});
+      const double share = (next - passed) / length;
+      sum += share;
+      squares += share * share;
+    }
+    passed += length;
+  }
+  const auto count = static_cast<double>(result.places.size());
+  result.spread = 12 * (squares / count - (sum / count) * (sum / count));
+  return result;
+}
+
+/// About as long, but by the golden ratio off a whole number of columns, or off a whole part of one.
+double uneven_step(double step, double column) {
+  const double golden = (std::sqrt(5.0) - 1) / 2;
+  return step > column ? column * (std::floor(step / column) + golden) : column / (std::floor(column / step) + golden);
 }
 
 }  // namespace
@@ -84,6 +118,12 @@ void Solid::find_facets(Surface& surface) {
       surface.reentrant_edges.push_back(
           {vertices[static_cast<std::size_t>(faces[f][k])], vertices[static_cast<std::size_t>(faces[f][(k + 1) % 3])]});
     }
+  // Where faces of two bodies touch there is no such edge.
+  for (std::size_t a = 0; a < is_wanted.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (norm(groups.planes[a].normal + groups.planes[b].normal) < kOpposite &&
+          std::abs(groups.planes[a].offset + groups.planes[b].offset) < kCoplanar * diagonal)
+        is_wanted[a] = is_wanted[b] = 1;
   std::vector<std::size_t> order;
   for (std::size_t g = 0; g < is_wanted.size(); ++g)
     if (is_wanted[g]) order.push_back(g);
@@ -145,15 +185,11 @@ std::vector<Vec3> Solid::points_inside(const std::vector<Plane>& cell, int count
   const std::vector<Stretch> stretches = stretches_inside(cell);
   double length = 0;
   for (const Stretch& s : stretches) length += s.high - s.low;
-  // Equal steps of cumulative length with a random start: stratified, in proportion to the volume.
-  std::vector<Vec3> points;
-  const double step = length / count;
-  double next = step * random.uniform(), passed = 0;
-  for (const Stretch& s : stretches) {
-    for (; next < passed + s.high - s.low; next += step) points.push_back({s.x, s.y, s.low + next - passed});
-    passed += s.high - s.low;
-  }
-  return points;
+  const double start = random.uniform();
+  const PointsAlong points = points_along(stretches, length / count, start);
+  if (points.spread > kLeastSpread || points.places.size() < kFewPlaces) return points.places;
+  return points_along(stretches, uneven_step(length / count, length / static_cast<double>(stretches.size())), start)
+      .places;
 }
 
 RegionMoments moments_of_points(const std::vector<Vec3>& points, double volume) {

@@ -46,6 +46,11 @@ catalog::TriangleMesh read_with_assimp(const std::filesystem::path& path, const 
       mesh.vertices.push_back({part.mVertices[v].x, part.mVertices[v].y, part.mVertices[v].z});
     for (unsigned int f = 0; f < part.mNumFaces; ++f) {
       const unsigned int* corner = part.mFaces[f].mIndices;
+      // Assimp parts lines from triangles, but not in every broken file, and passes indices on.
+      if (part.mFaces[f].mNumIndices != 3 ||
+          std::any_of(corner, corner + 3, [&](unsigned int v) { return v >= part.mNumVertices; }))
+        refuse_file(path, "face " + std::to_string(mesh.faces.size() + 1), "is no triangle of the mesh's vertices",
+                    "export the mesh again");
       mesh.faces.push_back({first + static_cast<int>(corner[0]), first + static_cast<int>(corner[1]),
                             first + static_cast<int>(corner[2])});
     }

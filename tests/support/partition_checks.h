@@ -170,8 +170,7 @@ inline void expect_matching_cuts(const catalog::LevelOfDetail& level, double tol
 /// What decompose() reports as LevelFigures::ledge_area.
 inline double ledge_share(const catalog::LevelOfDetail& level) {
   const std::string key = "\"ledge_area_ratio\":", &text = level.provenance.options;
-  const std::size_t at = text.find(key);
-  return at == std::string::npos ? 0 : std::stod(text.substr(at + key.size()));
+  return std::stod(text.substr(text.find(key) + key.size()));
 }
 
 /// The inner areas of the two sides of every cut differ by the ledges that the level reports, and by no more.

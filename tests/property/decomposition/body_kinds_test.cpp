@@ -172,5 +172,18 @@ TEST(BodyKinds, ConvexSolidsApartAreOneBody) {
   for (std::uint64_t seed = 1; seed < 5; ++seed) expect_sound_level(random_bodies::random_row(seed), quick(4), 0.08);
 }
 
+// All columns of a block of exact coordinates are equally long: points spread along them must not lie in one plane.
+TEST(BodyKinds, BlockWithANarrowSlit) {
+  catalog::TriangleMesh slit =
+      solids::voxels(3, [](int i, int j, int k) { return j == 0 && k < 2 && !(i == 1 && k == 1); });
+  constexpr double kAlong[] = {0, 1, 1.001, 2};
+  for (catalog::Point& p : slit.vertices) p = {kAlong[static_cast<int>(p[0])], p[1], p[2] / 2};
+  for (const int parts : {1, 2}) {
+    const catalog::LevelOfDetail level = decompose(slit, quick(parts));
+    partition_checks::expect_partition(level);
+    EXPECT_LT(level.error.symmetric_difference, 0.005);
+  }
+}
+
 }  // namespace
 }  // namespace decomposition
