@@ -18,6 +18,7 @@
 #include "workflows/micrograph_batch.h"
 #include "workflows/stack_batch.h"
 #include "workflows/stage_tool.h"
+#include "workflows/turntable_batch.h"
 #include "workflows/units.h"
 
 namespace workflows {
@@ -31,6 +32,7 @@ struct CommandLine {
   CloudSettings cloud;
   StackSettings stack;
   MicrographSettings micrograph;
+  TurntableSettings turntable;
   fs::path virtual_scan_folder;
   int count = 4, points = 6000;
   std::uint64_t seed = 1;
@@ -58,8 +60,13 @@ constexpr char kDescription[] =
     "  talus digitize image.png --into powder.talus --pixel '0.5 um'\n\n"
     "outlines the grains of a micrograph (PNG, JPEG, BMP, one-page TIFF): tables, outlines and overlay go to\n"
     "powder_outlines/, and a population of solids whose silhouettes match them to the catalogue.\n\n"
+    "  talus digitize --turntable views/ --into ore.talus --pixel '20 um'\n\n"
+    "takes the images of a folder for the silhouettes of one grain on a turntable and stores its visual hull; a\n"
+    "perspective camera, listed angles and the axis go into views/turntable.json.\n\n"
     "  talus digitize --make-virtual-scans scans/ --count 4 --seed 1\n\n"
     "writes scans of generated rocks with noise and gaps, and their truth (use --unit m --truth scans/truth.json).";
+
+constexpr char kNoCatalogue[] = "no catalogue named; add --into ore.talus";
 
 void declare_cloud_options(CLI::App& app, CloudSettings& cloud) {
   app.add_flag("--register", cloud.is_registered, "the clouds are partial scans of one particle");
@@ -92,7 +99,8 @@ void declare_stack_options(CLI::App& app, StackSettings& stack) {
 }
 
 void declare_micrograph_options(CLI::App& app, MicrographSettings& micrograph) {
-  app.add_option("--pixel", micrograph.pixel, "side of a pixel of a micrograph, such as '0.5 um'");
+  app.add_option("--pixel", micrograph.pixel,
+                 "side of a pixel of a micrograph or of turntable images, such as '0.5 um'");
   app.add_option("--scale-bar", micrograph.scale_bar,
                  "what the bar in the data strip of a micrograph stands for, such as '100 um'");
   app.add_flag("--dark-grains", micrograph.has_dark_grains, "of a micrograph, on a bright background");
@@ -104,6 +112,13 @@ void declare_micrograph_options(CLI::App& app, MicrographSettings& micrograph) {
                    "solids made to look like a micrograph's grains; 0: none");
   app.add_option("--third-axis", micrograph.third_axis,
                  "S/I of these solids, which no micrograph shows: drawn (like I/L) or a ratio")
+      ->capture_default_str();
+}
+
+void declare_turntable_options(CLI::App& app, TurntableSettings& turntable) {
+  app.add_flag("--turntable", turntable.is_asked_for, "each folder is the views of one grain about an axis");
+  app.add_option("--cells", turntable.cells, "of the grid along the longest side of a turntable's grain")
+      ->check(CLI::Range(20, 400))
       ->capture_default_str();
 }
 
@@ -132,6 +147,7 @@ void declare_options(CLI::App& app, CommandLine& line) {
   declare_cloud_options(app, line.cloud);
   declare_stack_options(app, line.stack);
   declare_micrograph_options(app, line.micrograph);
+  declare_turntable_options(app, line.turntable);
   app.add_flag("--json", line.is_json, "one JSON object a scan on stdout");
   app.add_option("--make-virtual-scans", line.virtual_scan_folder, "write virtual scans into this folder and stop");
   app.add_option("--count", line.count, "virtual scans")->check(CLI::Range(1, 10000))->capture_default_str();
@@ -218,15 +234,22 @@ int digitize_batch(const CommandLine& line) {
   if (line.batch.inputs.empty())
     throw catalog::UsageError("no scan named; give files or folders, or --make-virtual-scans DIR");
   if (line.cloud.are_given()) {
-    if (line.batch.catalog_path.empty()) throw catalog::UsageError("no catalogue named; add --into ore.talus");
+    if (line.batch.catalog_path.empty()) throw catalog::UsageError(kNoCatalogue);
     return run_batch(line, CloudBatch(line.batch, line.cloud));
+  }
+  if (line.turntable.is_asked_for) {
+    if (line.stack.is_asked_for) throw catalog::UsageError("--stack and --turntable do not go together");
+    if (line.batch.catalog_path.empty()) throw catalog::UsageError(kNoCatalogue);
+    TurntableSettings settings = line.turntable;
+    settings.pixel = line.micrograph.pixel;
+    return run_batch(line, TurntableBatch(line.batch, settings));
   }
   if (are_micrographs(line.batch, line.micrograph)) {
     MicrographSettings settings = line.micrograph;
     settings.seed = line.seed;
     return run_batch(line, MicrographBatch(line.batch, settings));
   }
-  if (line.batch.catalog_path.empty()) throw catalog::UsageError("no catalogue named; add --into ore.talus");
+  if (line.batch.catalog_path.empty()) throw catalog::UsageError(kNoCatalogue);
   if (are_stacks(line.batch, line.stack)) return run_batch(line, StackBatch(line.batch, line.stack));
   return run_batch(line, DigitizeBatch(line.batch));
 }

@@ -84,6 +84,21 @@ void stretch(GreyImage& image) {
   for (float& value : image.values) value = std::clamp((value - low) * scale, 0.0f, 255.0f);
 }
 
+void write_png(const fs::path& path, const cv::Mat& picture) {
+  std::vector<std::uint8_t> encoded;
+  cv::imencode(".png", picture, encoded);
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(encoded.data()), static_cast<std::streamsize>(encoded.size()));
+  if (!file.flush()) refuse(path, "cannot be written; check the folder and the space left");
+}
+
+cv::Mat in_bytes(const GreyImage& image) {
+  const cv::Mat grey(image.height, image.width, CV_32F, const_cast<float*>(image.values.data()));
+  cv::Mat bytes;
+  grey.convertTo(bytes, CV_8U);
+  return bytes;
+}
+
 }  // namespace
 
 GreyImage read_image(const fs::path& path) {
@@ -102,11 +117,11 @@ GreyImage read_image(const fs::path& path) {
   return image;
 }
 
+void write_image(const fs::path& path, const GreyImage& image) { write_png(path, in_bytes(image)); }
+
 void write_picture(const fs::path& path, const GreyImage& image, const std::vector<ColourLine>& lines) {
-  const cv::Mat grey(image.height, image.width, CV_32F, const_cast<float*>(image.values.data()));
-  cv::Mat bytes, picture;
-  grey.convertTo(bytes, CV_8U);
-  cv::cvtColor(bytes, picture, cv::COLOR_GRAY2BGR);
+  cv::Mat picture;
+  cv::cvtColor(in_bytes(image), picture, cv::COLOR_GRAY2BGR);
   const int scale = 2 * std::max(image.width, image.height) <= kLargestPicture ? 2 : 1;
   cv::resize(picture, picture, {}, scale, scale, cv::INTER_CUBIC);
   constexpr int kFraction = 4;  // bits below a pixel
@@ -118,11 +133,7 @@ void write_picture(const fs::path& path, const GreyImage& image, const std::vect
     cv::polylines(picture, std::vector<std::vector<cv::Point>>{points}, line.is_closed,
                   cv::Scalar(line.colour[2], line.colour[1], line.colour[0]), 1, cv::LINE_AA, kFraction);
   }
-  std::vector<std::uint8_t> encoded;
-  cv::imencode(".png", picture, encoded);
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(encoded.data()), static_cast<std::streamsize>(encoded.size()));
-  if (!file.flush()) refuse(path, "cannot be written; check the folder and the space left");
+  write_png(path, picture);
 }
 
 }  // namespace shape_pipeline

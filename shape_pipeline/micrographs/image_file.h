@@ -14,6 +14,9 @@ namespace shape_pipeline {
 /// InputError, the file named, for what is empty, ends early, is none of these, or smaller than 32 pixels a side.
 GreyImage read_image(const std::filesystem::path& path);
 
+/// Writes the image as PNG of 8 bits. Throws InputError if it cannot.
+void write_image(const std::filesystem::path& path, const GreyImage& image);
+
 /// A picture with three channels a pixel, for drawing on.
 struct ColourLine {
   std::vector<std::array<double, 2>> points;  // in pixels, (0, 0) at the image's upper left corner

@@ -59,4 +59,19 @@ void fill_pits(Mask& mask, int largest) {
         mask(x, y) = 255;
 }
 
+Mask largest_region(const Mask& mask) {
+  cv::Mat labels, figures, centres;
+  const int count = cv::connectedComponentsWithStats(view(mask), labels, figures, centres, 4, CV_32S);
+  int largest = 0, area = 0;
+  for (int label = 1; label < count; ++label)
+    if (figures.at<int>(label, cv::CC_STAT_AREA) > area) {
+      largest = label;
+      area = figures.at<int>(label, cv::CC_STAT_AREA);
+    }
+  Mask result(mask.width, mask.height);
+  for (int y = 0; y < mask.height; ++y)
+    for (int x = 0; x < mask.width; ++x) result(x, y) = largest != 0 && labels.at<int>(y, x) == largest ? 255 : 0;
+  return result;
+}
+
 }  // namespace shape_pipeline

@@ -20,4 +20,7 @@ Mask opened(const Mask& mask);
 /// Regions of pixels that are 0, joined by their sides, each of an area of at most `largest` set to 255.
 void fill_pits(Mask& mask, int largest);
 
+/// The region of pixels set, joined by their sides, that has most of them; of equals the first.
+Mask largest_region(const Mask& mask);
+
 }  // namespace shape_pipeline

@@ -116,11 +116,10 @@ Raster<float> region_field(const LabelImage& regions, const GreyImage& grey, con
 
 }  // namespace
 
-Outline level_outline(const Raster<float>& given) {
+std::vector<Outline> level_lines(const Raster<float>& given) {
   const Raster<float> field = framed(given);
   std::map<GridEdge, GridEdge> next = zero_line(field);
-  Outline best;
-  double largest = 0;
+  std::vector<Outline> lines;
   while (!next.empty()) {
     Outline line;
     for (auto step = next.begin(); step != next.end();) {
@@ -131,7 +130,15 @@ Outline level_outline(const Raster<float>& given) {
       step = next.find(to);
     }
     if (line.size() > 1 && line.front() == line.back()) line.pop_back();
-    if (line.size() < 3) continue;
+    if (line.size() >= 3) lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+Outline level_outline(const Raster<float>& field) {
+  Outline best;
+  double largest = 0;
+  for (Outline& line : level_lines(field)) {
     const double area = std::abs(plane_moments(line).area);
     if (area <= largest) continue;
     largest = area;

@@ -40,6 +40,12 @@ BenchPlan plan_digitize_bench(const BenchOptions& options) {
   if (std::filesystem::exists(options.scans / kCaptureFiles[0]) &&
       std::filesystem::exists(options.scans / kCaptureFiles[1]))
     plan.cases.push_back({"captures", [scans = options.scans] { return measure_captures(scans); }});
+  for (const TurntableCase& turntable : kTurntableCases)
+    plan.cases.push_back({turntable.name, [solids, turntable] {
+                            auto measured = turntable_rocks();
+                            if (solids->has("stone10")) measured.emplace_back("stone10", solids->mesh("stone10"));
+                            return measure_turntable(turntable, measured);
+                          }});
   for (const CloudPair& pair : kCloudPairs)
     if (std::filesystem::exists(options.scans / pair.cloud) && std::filesystem::exists(options.scans / pair.mesh))
       plan.cases.push_back(

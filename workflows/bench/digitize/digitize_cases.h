@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "catalog/triangle_mesh.h"
@@ -58,6 +59,25 @@ CaseResult measure_plate();
 /// Two captures of one stone, torn as they come: repaired, aligned, what differs.
 inline const std::vector<std::string> kCaptureFiles{"epfl_capture_scanner.stl", "epfl_capture_iphone_lidar.stl"};
 CaseResult measure_captures(const std::filesystem::path& scans);
+
+/// The visual hull of a grain on a virtual turntable against the best that its views could give.
+struct TurntableCase {
+  std::string name;
+  int views;
+  int side = 384;        // of the images [pixels]
+  double noise = 3;      // standard deviation, of a contrast of 180 [grey values]
+  double elevation = 0;  // of a perspective camera [rad]; 0: an orthographic one
+};
+inline const std::vector<TurntableCase> kTurntableCases{{"turntable-12", 12},
+                                                        {"turntable-36", 36},
+                                                        {"turntable-72", 72},
+                                                        {"turntable-36-coarse", 36, 128, 15},
+                                                        {"turntable-36-raised", 36, 384, 3, 0.35}};
+/// Of each of these solids.
+CaseResult measure_turntable(const TurntableCase& turntable,
+                             const std::vector<std::pair<std::string, catalog::TriangleMesh>>& solids);
+/// A random rock, one with a notch, a flat one: with their names.
+std::vector<std::pair<std::string, catalog::TriangleMesh>> turntable_rocks();
 
 /// Descriptors of bodies with closed forms: largest relative error.
 CaseResult measure_exact_descriptors();
