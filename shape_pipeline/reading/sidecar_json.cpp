@@ -9,11 +9,12 @@
 
 namespace shape_pipeline {
 
-nlohmann::json read_sidecar_json(const std::filesystem::path& path, const std::vector<std::string>& known,
-                                 const std::string& what, const std::string& example) {
+std::string read_sidecar_json(const std::filesystem::path& path, const std::vector<std::string>& known,
+                              const std::string& what, const std::string& example) {
+  std::string text = read_scan_bytes(path);
   nlohmann::json values;
   try {
-    values = nlohmann::json::parse(read_scan_bytes(path));
+    values = nlohmann::json::parse(text);
   } catch (const nlohmann::json::parse_error& error) {
     refuse_file(path, "byte " + std::to_string(error.byte), "is no JSON", example);
   } catch (const nlohmann::json::out_of_range&) {
@@ -23,7 +24,7 @@ nlohmann::json read_sidecar_json(const std::filesystem::path& path, const std::v
   for (const auto& [key, value] : values.items())
     if (std::find(known.begin(), known.end(), key) == known.end())
       refuse_file(path, key, "is no key of " + what, catalog::word_hint(key, known));
-  return values;
+  return text;
 }
 
 }  // namespace shape_pipeline
