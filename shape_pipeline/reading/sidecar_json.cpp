@@ -9,12 +9,11 @@
 
 namespace shape_pipeline {
 
-std::string read_sidecar_json(const std::filesystem::path& path, const std::vector<std::string>& known,
-                              const std::string& what, const std::string& example) {
-  std::string text = read_scan_bytes(path);
+nlohmann::json read_sidecar_json(const std::filesystem::path& path, const std::vector<std::string>& known,
+                                 const std::string& what, const std::string& example) {
   nlohmann::json values;
   try {
-    values = nlohmann::json::parse(text);
+    values = nlohmann::json::parse(read_scan_bytes(path));
   } catch (const nlohmann::json::parse_error& error) {
     refuse_file(path, "byte " + std::to_string(error.byte), "is no JSON", example);
   } catch (const nlohmann::json::out_of_range&) {
@@ -24,7 +23,7 @@ std::string read_sidecar_json(const std::filesystem::path& path, const std::vect
   for (const auto& [key, value] : values.items())
     if (std::find(known.begin(), known.end(), key) == known.end())
       refuse_file(path, key, "is no key of " + what, catalog::word_hint(key, known));
-  return text;
+  return values;
 }
 
 }  // namespace shape_pipeline

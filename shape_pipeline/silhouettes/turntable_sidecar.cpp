@@ -24,10 +24,10 @@ constexpr double kSteepest = 60;  // [deg]: beyond, the views tell hardly anythi
 class Sidecar {
  public:
   explicit Sidecar(const std::filesystem::path& path) : path_(path) {
-    values_ = json::parse(read_sidecar_json(path,
-                                            {"unit", "pixel_size", "focal_length", "principal_point", "distance",
-                                             "elevation", "axis_column", "turn", "angles"},
-                                            "a turntable", kExample));
+    values_ = read_sidecar_json(path,
+                                {"unit", "pixel_size", "focal_length", "principal_point", "distance", "elevation",
+                                 "axis_column", "turn", "angles"},
+                                "a turntable", kExample);
     const std::vector<std::string> other = has("pixel_size")
                                                ? std::vector<std::string>{"focal_length", "principal_point", "distance"}
                                                : std::vector<std::string>{};
