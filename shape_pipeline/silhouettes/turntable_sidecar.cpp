@@ -6,7 +6,6 @@
 
 #include "catalog/nearest_word.h"
 #include "shape_pipeline/reading/scan_bytes.h"
-#include "shape_pipeline/reading/sidecar_json.h"
 #include "shape_pipeline/silhouettes/turntable_camera.h"
 #include "shape_pipeline/volumes/stack_file.h"
 
@@ -24,10 +23,19 @@ constexpr double kSteepest = 60;  // [deg]: beyond, the views tell hardly anythi
 class Sidecar {
  public:
   explicit Sidecar(const std::filesystem::path& path) : path_(path) {
-    values_ = read_sidecar_json(path,
-                                {"unit", "pixel_size", "focal_length", "principal_point", "distance", "elevation",
-                                 "axis_column", "turn", "angles"},
-                                "a turntable", kExample);
+    try {
+      values_ = json::parse(read_scan_bytes(path));
+    } catch (const json::parse_error& error) {
+      refuse_file(path, "byte " + std::to_string(error.byte), "is no JSON", kExample);
+    } catch (const json::out_of_range&) {
+      refuse_file(path, "", "holds a number that is too large", kExample);
+    }
+    if (!values_.is_object()) refuse_file(path, "", "is no JSON object", kExample);
+    const std::vector<std::string> known{"unit",      "pixel_size",  "focal_length", "principal_point", "distance",
+                                         "elevation", "axis_column", "turn",         "angles"};
+    for (const auto& [key, value] : values_.items())
+      if (std::find(known.begin(), known.end(), key) == known.end())
+        refuse_file(path, key, "is no key of a turntable", catalog::word_hint(key, known));
     const std::vector<std::string> other = has("pixel_size")
                                                ? std::vector<std::string>{"focal_length", "principal_point", "distance"}
                                                : std::vector<std::string>{};

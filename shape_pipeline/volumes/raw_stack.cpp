@@ -5,7 +5,6 @@
 
 #include "catalog/nearest_word.h"
 #include "shape_pipeline/reading/scan_bytes.h"
-#include "shape_pipeline/reading/sidecar_json.h"
 #include "shape_pipeline/volumes/stack_file.h"
 
 namespace shape_pipeline {
@@ -21,8 +20,18 @@ class Sidecar {
   explicit Sidecar(const std::filesystem::path& path) : path_(path) {
     if (!std::filesystem::exists(path))
       refuse_file(path, "", "a RAW needs this file beside it, which is not there", kExample);
-    values_ =
-        read_sidecar_json(path, {"size", "type", "endian", "offset", "voxel_size", "unit"}, "a sidecar", kExample);
+    try {
+      values_ = json::parse(read_scan_bytes(path));
+    } catch (const json::parse_error& error) {
+      refuse_file(path, "byte " + std::to_string(error.byte), "is no JSON", kExample);
+    } catch (const json::out_of_range&) {
+      refuse_file(path, "", "holds a number that is too large", kExample);
+    }
+    if (!values_.is_object()) refuse_file(path, "", "is no JSON object", kExample);
+    const std::vector<std::string> known{"size", "type", "endian", "offset", "voxel_size", "unit"};
+    for (const auto& [key, value] : values_.items())
+      if (std::find(known.begin(), known.end(), key) == known.end())
+        refuse_file(path, key, "is no key of a sidecar", catalog::word_hint(key, known));
   }
 
   std::array<int, 3> size() const {
