@@ -56,9 +56,9 @@ TEST(LargeCloud, StaysWithinItsMemory) {
     options.metres_per_unit = 1e-3;
     const catalog::ShapeRecord shape = digitize(folder / "cloud.ply", options);
     const double volume = 4e-9 / 3 * std::numbers::pi * kAxes[0] * kAxes[1] * kAxes[2];
-    std::cout << points << " points: " << static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC
-              << " CPU s, peak " << peak_megabytes() << " MB, volume error "
-              << 100 * (shape.mass_properties.volume / volume - 1) << " %\n";
+    std::cout << points << " points: " << static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC << " CPU s, peak "
+              << peak_megabytes() << " MB, volume error " << 100 * (shape.mass_properties.volume / volume - 1)
+              << " %\n";
     EXPECT_NEAR(shape.mass_properties.volume, volume, 1e-3 * volume);
   } else {
     const CloudFile file = read_cloud(folder / "cloud.ply", reading);
