@@ -14,11 +14,11 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr int kPlaces = 200;              // the median over them is known to 9 % of their spread
+constexpr int kPlaces = 200;               // the median over them is known to 9 % of their spread
 constexpr std::size_t kFewestPieces = 12;  // twice the terms of the polynomial
 constexpr double kLongestEdge = 0.25;      // of a piece over the patch's radius
 constexpr double kMostPieces = 400000;     // half a CPU second; thin bodies have more
-constexpr double kFlat = 1e-12;           // of the patch's radius: what rounding leaves of a flat face
+constexpr double kFlat = 1e-12;            // of the patch's radius: what rounding leaves of a flat face
 
 using Terms = Eigen::Matrix<double, 6, 1>;
 
@@ -104,15 +104,10 @@ SurfaceRoughness roughness_of(const std::vector<LocalPiece>& patch, double radiu
   }
   const double sq = std::sqrt(second);
   if (sq < kFlat) return {radius, 0, 0, 0, 3, 0};
-  return {radius,
-          radius * first,
-          radius * sq,
-          third / (sq * sq * sq),
-          fourth / (second * second),
-          std::sqrt(slope)};
+  return {radius, radius * first, radius * sq, third / (sq * sq * sq), fourth / (second * second), std::sqrt(slope)};
 }
 
-double median(const std::vector<SurfaceRoughness>& patches, double SurfaceRoughness::* figure) {
+double median(const std::vector<SurfaceRoughness>& patches, double SurfaceRoughness::*figure) {
   std::vector<double> values;
   for (const SurfaceRoughness& patch : patches) values.push_back(patch.*figure);
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

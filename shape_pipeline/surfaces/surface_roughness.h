@@ -18,11 +18,11 @@ struct SurfaceRoughness {
   double sdq = 0;           // root mean square of the slope of z [-]
 };
 
-/// Of a closed, outward mesh: at 200 places spread over the area, the patch within `patch_radius` that is turned the same
-/// way, and its heights z over the second-order polynomial that fits it best (the F-operator of ISO 25178-3). Waves
-/// longer than the patch are form and not seen, waves shorter than the faces are not there. A smooth sphere of radius
-/// r shows about 0.03 patch_radius^4 / r^3. Large faces are flat. None
-/// for bodies so thin that their surface is beyond 6000 patch_radius^2.
+/// Of a closed, outward mesh: at 200 places spread over the area, the patch within `patch_radius` that is turned the
+/// same way, and its heights z over the second-order polynomial that fits it best (the F-operator of ISO 25178-3).
+/// Waves longer than the patch are form and not seen, waves shorter than the faces are not there. A smooth sphere of
+/// radius r shows about 0.03 patch_radius^4 / r^3. Large faces are flat. None for bodies so thin that their surface is
+/// beyond 6000 patch_radius^2.
 std::optional<SurfaceRoughness> surface_roughness(const catalog::TriangleMesh& mesh, double patch_radius);
 
 }  // namespace shape_pipeline
