@@ -12,20 +12,6 @@
 namespace shape_pipeline {
 namespace {
 
-/// Real harmonics at a direction: (degree + 1)^2 values, orthonormal over the sphere.
-Eigen::VectorXd harmonics(const Point& direction, int degree) {
-  Eigen::VectorXd values((degree + 1) * (degree + 1));
-  const double polar = std::acos(std::clamp(direction[2], -1.0, 1.0)), azimuth = std::atan2(direction[1], direction[0]);
-  for (int n = 0; n <= degree; ++n)
-    for (int m = 0; m <= n; ++m) {
-      const double legendre = std::sph_legendre(static_cast<unsigned>(n), static_cast<unsigned>(m), polar);
-      const double both = m == 0 ? 1 : std::sqrt(2.0);
-      values[n * (n + 1) + m] = both * legendre * std::cos(m * azimuth);
-      if (m > 0) values[n * (n + 1) - m] = both * legendre * std::sin(m * azimuth);
-    }
-  return values;
-}
-
 /// Area of the unit sphere that the faces of each vertex take up, a third of each face.
 std::vector<double> solid_angles(const catalog::TriangleMesh& mesh) {
   std::vector<double> angles(mesh.vertices.size());
@@ -42,6 +28,19 @@ std::vector<double> solid_angles(const catalog::TriangleMesh& mesh) {
 
 }  // namespace
 
+std::vector<double> real_harmonics(const Point& direction, int degree) {
+  std::vector<double> values(static_cast<std::size_t>((degree + 1) * (degree + 1)));
+  const double polar = std::acos(std::clamp(direction[2], -1.0, 1.0)), azimuth = std::atan2(direction[1], direction[0]);
+  for (int n = 0; n <= degree; ++n)
+    for (int m = 0; m <= n; ++m) {
+      const double legendre = std::sph_legendre(static_cast<unsigned>(n), static_cast<unsigned>(m), polar);
+      const double both = m == 0 ? 1 : std::sqrt(2.0);
+      values[static_cast<std::size_t>(n * (n + 1) + m)] = both * legendre * std::cos(m * azimuth);
+      if (m > 0) values[static_cast<std::size_t>(n * (n + 1) - m)] = both * legendre * std::sin(m * azimuth);
+    }
+  return values;
+}
+
 catalog::TriangleMesh harmonic_low_pass(const catalog::TriangleMesh& mesh, int degree) {
   const std::vector<double> weights = solid_angles(mesh);
   const auto rows = static_cast<Eigen::Index>(mesh.vertices.size());
@@ -49,7 +48,8 @@ catalog::TriangleMesh harmonic_low_pass(const catalog::TriangleMesh& mesh, int d
   Eigen::VectorXd radii(rows), weight(rows);
   for (Eigen::Index v = 0; v < rows; ++v) {
     const Point& p = mesh.vertices[static_cast<std::size_t>(v)];
-    values.row(v) = harmonics(normalized(p), degree);
+    const std::vector<double> at_vertex = real_harmonics(normalized(p), degree);
+    values.row(v) = Eigen::Map<const Eigen::RowVectorXd>(at_vertex.data(), values.cols());
     radii[v] = norm(p);
     weight[v] = weights[static_cast<std::size_t>(v)];
   }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+
+#include "catalog/triangle_mesh.h"
+
+namespace shape_pipeline {
+
+/// Size and form of one grain, by descriptors of shape_descriptors.h.
+struct GrainForm {
+  double diameter = 0;    // of the sphere of equal volume [m]
+  double s_over_i = 1;    // axis_short_inertia / axis_intermediate_inertia
+  double i_over_l = 1;    // axis_intermediate_inertia / axis_long_inertia
+  double convexity = 1;   // convexity_volume_ratio
+  double sphericity = 1;  // sphericity_wadell
+};
+
+/// A grain made to a form, and how near it came. Diameter and axes are exact.
+struct TargetGrain {
+  catalog::TriangleMesh mesh;   // 2,352 faces, star-shaped about a point inside, outward; centroid at the origin [m]
+  double convexity_error = 0;   // made less asked for
+  double sphericity_error = 0;  // made less asked for
+  double amplitude = 0;         // a: standard deviation of the logarithm of the radius
+  double skew = 0;              // k: above 0 the surface has hollows, below 0 peaks
+  double exponent = 0;          // b of the spectrum
+  int fields = 0;               // random fields tried
+
+  /// Both errors within 0.001.
+  bool is_reached() const;
+};
+
+/// A random grain of the form. The radius about a point is exp(a g), g a standardised random field with hollows or
+/// peaks: g = (1 - exp(-k f)) / k of a Gaussian field f of spherical harmonics of degrees 3 to 10 whose power a degree
+/// falls as degree^-b (f: Grigoriu, Garboczi & Kafali 2006). One linear map then gives the solid the axes of inertia
+/// asked for; convexity does not change under it. a is found so that the convexity comes out, k in [-2.5, 2] so that the
+/// sphericity does, both by false position; b is 2, and where k does not reach, other fields with b = 0 and 8 are
+/// tried and the nearest is kept. The same form and seed give the same grain. Throws InputError for a figure that no
+/// solid has.
+TargetGrain target_grain(const GrainForm& form, std::uint64_t seed);
+
+}  // namespace shape_pipeline
