@@ -25,15 +25,15 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr double kReached = 1e-3;                 // error of convexity and sphericity: a tenth of a measured grain's
-constexpr double kFineConvexity = 2e-4;           // so that the search for the sphericity is not led by its noise
-constexpr int kDetail = 7;                        // faces along a quarter turn: 2.8 to the finest wave
-constexpr int kLowestDegree = 3, kDegree = 10;    // 2 is the ellipsoid's
+constexpr double kReached = 1e-3;               // error of convexity and sphericity: a tenth of a measured grain's
+constexpr double kFineConvexity = 2e-4;         // so that the search for the sphericity is not led by its noise
+constexpr int kDetail = 7;                      // faces along a quarter turn: 2.8 to the finest wave
+constexpr int kLowestDegree = 3, kDegree = 10;  // 2 is the ellipsoid's
 constexpr std::array kExponents{2.0, 0.0, 8.0};
-constexpr double kMostAmplitude = 0.8;            // beyond it radii differ tenfold
+constexpr double kMostAmplitude = 0.8;  // beyond it radii differ tenfold
 constexpr double kMostPeaks = -2.5, kMostHollows = 2;
 constexpr double kSkewStep = 0.5, kFirstAmplitude = 0.04;
-constexpr int kSteps = 40;                        // of one search; a dozen suffice
+constexpr int kSteps = 40;  // of one search; a dozen suffice
 
 /// The sphere and its harmonics at each vertex, degree by degree.
 struct UnitSphere {
@@ -66,9 +66,8 @@ std::vector<double> gaussian_field(RandomStream& random, double exponent) {
   std::vector<double> coefficients;
   for (int degree = 0; degree <= kDegree; ++degree)
     for (int order = -degree; order <= degree; ++order)
-      coefficients.push_back(degree < kLowestDegree
-                                 ? 0
-                                 : random.normal() * std::pow(degree, -exponent / 2) / std::sqrt(2 * degree + 1));
+      coefficients.push_back(
+          degree < kLowestDegree ? 0 : random.normal() * std::pow(degree, -exponent / 2) / std::sqrt(2 * degree + 1));
   std::vector<double> field;
   for (const std::vector<double>& harmonics : unit_sphere().harmonics) {
     double sum = 0;
@@ -169,15 +168,11 @@ class Search {
     return error;
   }
 
-  static double miss(const TargetGrain& grain) {
-    return std::hypot(grain.convexity_error, grain.sphericity_error);
-  }
+  static double miss(const TargetGrain& grain) { return std::hypot(grain.convexity_error, grain.sphericity_error); }
 
   /// The least amplitude that gives the convexity, or where it comes nearest, with the error of the convexity.
   Trial amplitude_for(const std::vector<double>& field) {
-    const auto error_at = [&](double amplitude) {
-      return convexity_of(surface(field, amplitude)) - form_.convexity;
-    };
+    const auto error_at = [&](double amplitude) { return convexity_of(surface(field, amplitude)) - form_.convexity; };
     Trial low{0, error_at(0)};
     if (low.error <= kFineConvexity) return low;
     Trial high{guess_, error_at(guess_)};
@@ -207,7 +202,8 @@ void refuse_impossible(const GrainForm& form) {
   for (const auto& [name, value] : {std::pair("s_over_i", form.s_over_i), std::pair("i_over_l", form.i_over_l),
                                     std::pair("convexity", form.convexity), std::pair("sphericity", form.sphericity)})
     if (!(value >= 0.01 && std::isfinite(value))) refuse(name, value, "a ratio of at least 0.01");
-  if (form.s_over_i > 1 || form.i_over_l > 1) refuse("a ratio of axes", std::max(form.s_over_i, form.i_over_l), "at most 1");
+  if (form.s_over_i > 1 || form.i_over_l > 1)
+    refuse("a ratio of axes", std::max(form.s_over_i, form.i_over_l), "at most 1");
 }
 
 }  // namespace

@@ -33,8 +33,8 @@ struct TargetGrain {
 /// A random grain of the form. The radius about a point is exp(a g), g a standardised random field with hollows or
 /// peaks: g = (1 - exp(-k f)) / k of a Gaussian field f of spherical harmonics of degrees 3 to 10 whose power a degree
 /// falls as degree^-b (f: Grigoriu, Garboczi & Kafali 2006). One linear map then gives the solid the axes of inertia
-/// asked for; convexity does not change under it. a is found so that the convexity comes out, k in [-2.5, 2] so that the
-/// sphericity does, both by false position; b is 2, and where k does not reach, other fields with b = 0 and 8 are
+/// asked for; convexity does not change under it. a is found so that the convexity comes out, k in [-2.5, 2] so that
+/// the sphericity does, both by false position; b is 2, and where k does not reach, other fields with b = 0 and 8 are
 /// tried and the nearest is kept. The same form and seed give the same grain. Throws InputError for a figure that no
 /// solid has.
 TargetGrain target_grain(const GrainForm& form, std::uint64_t seed);

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "workflows/population/matched_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "shape_pipeline/described_shape.h"
+#include "shape_pipeline/target_grain.h"
+#include "workflows/in_order.h"
+#include "workflows/population/comparison_report.h"
+#include "workflows/population/stratified_rows.h"
+#include "workflows/shape_sampling.h"
+#include "workflows/text_format.h"
+
+namespace workflows {
+namespace {
+
+constexpr double kShareReached = 0.9;  // of the targets; of voxel data a twentieth is no solid's
+
+struct Made {
+  catalog::ShapeRecord shape;
+  bool is_reached = false;
+};
+
+Made made_shape(const FormRow& row, std::uint64_t seed) {
+  const shape_pipeline::TargetGrain grain = shape_pipeline::target_grain(
+      {row[kDiameter], row[kSOverI], row[kIOverL], row[kConvexity], row[kSphericity]}, seed);
+  Made made{shape_pipeline::described_shape(grain.mesh, 0), grain.is_reached()};
+  made.shape.checks.push_back(
+      {"target_sphericity", true, grain.sphericity_error,
+       formatted("sphericity less the row's, convexity %+.4f; the nearest of %d random fields: amplitude %.3f, skew "
+                 "%.2f, power falls as degree^-%g",
+                 grain.convexity_error, grain.fields, grain.amplitude, grain.skew, grain.exponent)});
+  return made;
+}
+
+std::vector<catalog::Check> population_checks(const MatchedShapes& made, const FormTable& reference) {
+  std::vector<catalog::Check> checks;
+  for (std::size_t c = 0; c < kFormFigures; ++c) {
+    const FigureComparison& figure = made.comparison.figures[c];
+    checks.push_back({std::string("population_") + kFormNames[c], figure.agrees(),
+                      figure.made.mean / figure.reference.mean - 1, "whole population, " + figure_text(figure)});
+  }
+  double largest = 0;
+  bool agrees = true;
+  for (const CorrelationComparison& pair : made.comparison.correlations) {
+    largest = std::max(largest, std::abs(pair.made - pair.reference));
+    agrees = agrees && pair.agrees();
+  }
+  checks.push_back({"population_correlations", agrees, largest,
+                    "whole population, largest difference of a correlation; expected 0.1 or three standard errors"});
+  const double share = static_cast<double>(made.reached) / static_cast<double>(made.shapes.size());
+  checks.push_back({"population_targets_reached", share >= kShareReached, share,
+                    formatted("whole population, share with the convexity and sphericity of their rows to 0.001; "
+                              "expected %g, the others are the nearest that a star-shaped field gave",
+                              kShareReached)});
+  checks.push_back({"population_assumption", true, static_cast<double>(reference.rows.size()),
+                    "rows of the reference taken for whole single grains, as measured; " + reference.axes});
+  return checks;
+}
+
+}  // namespace
+
+MatchedShapes matched_shapes(const FormTable& reference, const MatchedShapesOptions& options) {
+  MatchedShapes result;
+  result.rows = stratified_rows(reference.rows, options.count, options.seed);
+  RandomSource random(~options.seed);  // other numbers than the draw's
+  std::vector<std::uint64_t> seeds;
+  for (std::size_t k = 0; k < options.count; ++k) seeds.push_back(random.next());
+  const auto place = [](int k) { return static_cast<std::size_t>(k); };
+
+  OrderedWork<Made> work;
+  work.count = static_cast<int>(options.count);
+  work.threads = threads_to_use(options.threads);
+  work.begin = [](int) {};
+  work.make = [&](int k) { return made_shape(reference.rows[result.rows[place(k)]], seeds[place(k)]); };
+  work.take = [&](int, Made&& made) {
+    result.shapes.push_back(std::move(made.shape));
+    result.reached += made.is_reached ? 1 : 0;
+  };
+  run_in_order(work);
+
+  std::vector<FormRow> rows;
+  for (const catalog::ShapeRecord& shape : result.shapes) rows.push_back(form_row("a made grain", shape.descriptors));
+  result.comparison = compare_populations(reference.rows, rows, Samples::drawn_from_reference);
+  const std::vector<catalog::Check> checks = population_checks(result, reference);
+  for (catalog::ShapeRecord& shape : result.shapes)
+    shape.checks.insert(shape.checks.end(), checks.begin(), checks.end());
+  return result;
+}
+
+}  // namespace workflows

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "workflows/population/form_table.h"
+
+namespace workflows {
+
+/// `count` of the rows, by number and from the smallest diameter up, so that they keep the joint distribution closer
+/// than chance would: the rows are halved again and again across the figure that varies most in each half (in
+/// standard deviations of all rows), until there is a cell for each row wanted, and one row of each cell is drawn with
+/// equal chance. Where more are wanted than there are, each is taken as often as it goes whole. `rows` is not empty.
+std::vector<std::size_t> stratified_rows(const std::vector<FormRow>& rows, std::size_t count, std::uint64_t seed);
+
+}  // namespace workflows
