@@ -53,10 +53,11 @@ Json classes_json(const std::array<std::size_t, kZinggClasses.size()>& classes) 
 }  // namespace
 
 std::string figure_text(const FigureComparison& figure) {
-  return formatted("mean %.4g (reference %.4g, limit of the difference %.2g), standard deviation %.4g (%.4g, %.2g), "
-                   "Kolmogorov-Smirnov distance %.3f (limit %.3f)",
-                   figure.made.mean, figure.reference.mean, figure.mean_limit, figure.made.spread,
-                   figure.reference.spread, figure.spread_limit, figure.distance, figure.distance_limit);
+  return formatted(
+      "mean %.4g (reference %.4g, limit of the difference %.2g), standard deviation %.4g (%.4g, %.2g), "
+      "Kolmogorov-Smirnov distance %.3f (limit %.3f)",
+      figure.made.mean, figure.reference.mean, figure.mean_limit, figure.made.spread, figure.reference.spread,
+      figure.spread_limit, figure.distance, figure.distance_limit);
 }
 
 std::string comparison_text(const PopulationComparison& comparison, const std::string& reference,
@@ -81,9 +82,10 @@ std::string comparison_text(const PopulationComparison& comparison, const std::s
                       pair.made, pair.limit, verdict(pair.agrees()));
   text += "Zingg's classes [share]\n";
   for (std::size_t k = 0; k < kZinggClasses.size(); ++k)
-    text += formatted("  %-10s reference %.3f, made %.3f\n", kZinggClasses[k],
-                      static_cast<double>(comparison.reference_classes[k]) / static_cast<double>(comparison.reference_count),
-                      static_cast<double>(comparison.made_classes[k]) / static_cast<double>(comparison.made_count));
+    text += formatted(
+        "  %-10s reference %.3f, made %.3f\n", kZinggClasses[k],
+        static_cast<double>(comparison.reference_classes[k]) / static_cast<double>(comparison.reference_count),
+        static_cast<double>(comparison.made_classes[k]) / static_cast<double>(comparison.made_count));
   return text;
 }
 

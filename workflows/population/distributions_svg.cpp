@@ -10,9 +10,9 @@ namespace {
 
 constexpr int kPanelWidth = 460, kPanelHeight = 300, kPanelsAcross = 2;  // [px]
 
-constexpr std::array<const char*, kFormFigures> kAxes{
-    "equivalent_diameter_volume [mm]", "s_over_i_inertia [-]", "i_over_l_inertia [-]", "convexity_volume_ratio [-]",
-    "sphericity_wadell [-]"};
+constexpr std::array<const char*, kFormFigures> kAxes{"equivalent_diameter_volume [mm]", "s_over_i_inertia [-]",
+                                                      "i_over_l_inertia [-]", "convexity_volume_ratio [-]",
+                                                      "sphericity_wadell [-]"};
 
 /// Share of the grains up to each value: a step at each.
 postprocess::Curve cumulative(const NamedRows& population, std::size_t figure, bool is_dashed) {

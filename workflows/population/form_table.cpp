@@ -19,11 +19,12 @@ namespace fs = std::filesystem;
 using catalog::InputError;
 
 constexpr std::size_t kFewestGrains = 10;  // of fewer, spread and correlation tell nothing
-constexpr double kMostRatio = 1.5;         // voxel data have sphericities a little above 1; beyond, it is another figure
-constexpr double kRatioTolerance = 1e-3;   // of Flatness and Elongation against axes written with few digits
+constexpr double kMostRatio = 1.5;        // voxel data have sphericities a little above 1; beyond, it is another figure
+constexpr double kRatioTolerance = 1e-3;  // of Flatness and Elongation against axes written with few digits
 
 constexpr char kSandAtlasAxes[] =
-    "S, I, L of the reference taken for axes of the ellipsoid of equal second moments (Sand Atlas scales that ellipsoid "
+    "S, I, L of the reference taken for axes of the ellipsoid of equal second moments (Sand Atlas scales that "
+    "ellipsoid "
     "to the grain's volume, which leaves its ratios)";
 constexpr char kTalusAxes[] = "S, I, L: axes of the ellipsoid of equal second moments, as axis_short_inertia is";
 
@@ -36,12 +37,18 @@ struct Heading {
   bool is_length = false;
 };
 constexpr Heading kHeadings[] = {
-    {"Equivalent Diameter", kDiameter, 0, true},  {"Flatness", kSOverI, 1},
-    {"Elongation", kIOverL, 1},                   {"Convexity", kConvexity, 1},
-    {"True Sphericity", kSphericity, 1},          {"Minor Axis Length", kMinor, 0, true},
-    {"Middle Axis Length", kMiddle, 0, true},     {"Major Axis Length", kMajor, 0, true},
-    {kFormNames[kDiameter], kDiameter, 1, true},  {kFormNames[kSOverI], kSOverI, 1},
-    {kFormNames[kIOverL], kIOverL, 1},            {kFormNames[kConvexity], kConvexity, 1},
+    {"Equivalent Diameter", kDiameter, 0, true},
+    {"Flatness", kSOverI, 1},
+    {"Elongation", kIOverL, 1},
+    {"Convexity", kConvexity, 1},
+    {"True Sphericity", kSphericity, 1},
+    {"Minor Axis Length", kMinor, 0, true},
+    {"Middle Axis Length", kMiddle, 0, true},
+    {"Major Axis Length", kMajor, 0, true},
+    {kFormNames[kDiameter], kDiameter, 1, true},
+    {kFormNames[kSOverI], kSOverI, 1},
+    {kFormNames[kIOverL], kIOverL, 1},
+    {kFormNames[kConvexity], kConvexity, 1},
     {kFormNames[kSphericity], kSphericity, 1},
 };
 
@@ -118,7 +125,8 @@ Columns columns_of(const std::string& file, std::string_view headings) {
         missing += " (or '" + std::string(heading.name) + (heading.is_length ? " (um)')" : " (-)')");
   }
   if (!missing.empty())
-    throw InputError(file + ": its first line has no column for " + missing + "; name the columns so, with commas between");
+    throw InputError(file + ": its first line has no column for " + missing +
+                     "; name the columns so, with commas between");
   return columns;
 }
 
@@ -148,24 +156,26 @@ void refuse_impossible(const std::string& place, const FormRow& row) {
   for (std::size_t c = 0; c < kFormFigures; ++c) {
     const double most = c == kDiameter ? 1e12 : c == kConvexity || c == kSphericity ? kMostRatio : 1;
     if (!(row[c] > 0 && row[c] <= most))
-      throw InputError(place + formatted("%s is %g, expected %s; another formula or unit?", kFormNames[c], row[c],
-                                         c == kDiameter ? "a length above 0" : formatted("above 0 to %g", most).c_str()));
+      throw InputError(place +
+                       formatted("%s is %g, expected %s; another formula or unit?", kFormNames[c], row[c],
+                                 c == kDiameter ? "a length above 0" : formatted("above 0 to %g", most).c_str()));
   }
 }
 
 /// Flatness and Elongation are S/I and I/L only in some files: the axes beside them tell.
 void refuse_other_formulas(const Line& line, const std::vector<std::string_view>& cells, const Columns& columns,
                            const FormRow& row) {
-  for (const auto& [ratio, small, large] : {std::array{std::size_t{kSOverI}, std::size_t{kMinor}, std::size_t{kMiddle}},
-                                            std::array{std::size_t{kIOverL}, std::size_t{kMiddle}, std::size_t{kMajor}}}) {
+  for (const auto& [ratio, small, large] :
+       {std::array{std::size_t{kSOverI}, std::size_t{kMinor}, std::size_t{kMiddle}},
+        std::array{std::size_t{kIOverL}, std::size_t{kMiddle}, std::size_t{kMajor}}}) {
     if (columns[small].unit == 0 || columns[large].unit == 0) continue;
     const double expected = number_in(line, cells, columns[small]) / number_in(line, cells, columns[large]);
     if (!(std::abs(row[ratio] - expected) <= kRatioTolerance))
       throw InputError(line.place() + formatted("'%s' is %g, but '%s' over '%s' is %g: another formula of that name; "
                                                 "name the column with these ratios %s",
                                                 columns[ratio].heading.c_str(), row[ratio],
-                                                columns[small].heading.c_str(), columns[large].heading.c_str(), expected,
-                                                kFormNames[ratio]));
+                                                columns[small].heading.c_str(), columns[large].heading.c_str(),
+                                                expected, kFormNames[ratio]));
   }
 }
 
@@ -174,10 +184,13 @@ FormTable csv_table(const fs::path& path) {
   std::string text;
   const std::string file = path.string();
   if (!std::getline(stream, text))
-    throw InputError(file + ": is empty or cannot be read, expected a CSV file with a line of headings, or a catalogue");
+    throw InputError(file +
+                     ": is empty or cannot be read, expected a CSV file with a line of headings, or a catalogue");
   const Columns columns = columns_of(file, text);
-  FormTable table{path.filename().string(), catalog::sha256_of_file(path),
-                  columns[kSOverI].heading.starts_with("Flatness") ? kSandAtlasAxes : kTalusAxes, {}};
+  FormTable table{path.filename().string(),
+                  catalog::sha256_of_file(path),
+                  columns[kSOverI].heading.starts_with("Flatness") ? kSandAtlasAxes : kTalusAxes,
+                  {}};
   for (std::size_t number = 2; std::getline(stream, text); ++number) {
     if (trimmed(text).empty()) continue;
     const Line line{file, number, text};
@@ -210,7 +223,8 @@ FormRow form_row(const std::string& shape, const std::map<std::string, double>& 
   const auto figure = [&](const char* name) {
     const auto found = descriptors.find(name);
     if (found == descriptors.end())
-      throw InputError(shape + ": has no descriptor " + name + "; make or digitise it again, or leave it out by --select");
+      throw InputError(shape + ": has no descriptor " + name +
+                       "; make or digitise it again, or leave it out by --select");
     return found->second;
   };
   const double intermediate = figure("axis_intermediate_inertia");

@@ -37,7 +37,8 @@ struct FormTable {
 FormTable read_form_table(const std::filesystem::path& file, const std::string& select);
 
 /// Of all shapes that the query names; `file` is for messages.
-FormTable form_table(const catalog::ShapeCatalog& catalog, const std::string& select, const std::filesystem::path& file);
+FormTable form_table(const catalog::ShapeCatalog& catalog, const std::string& select,
+                     const std::filesystem::path& file);
 
 /// Of one shape's descriptors; throws InputError naming the shape if one is missing.
 FormRow form_row(const std::string& shape, const std::map<std::string, double>& descriptors);

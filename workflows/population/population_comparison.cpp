@@ -18,6 +18,13 @@ double percentile(const std::vector<double>& sorted, double share) {
   return sorted[below] + (place - std::floor(place)) * (sorted[above] - sorted[below]);
 }
 
+/// About the first value, so that equal values have it as their mean to the last bit, and no spread.
+double mean_of(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value - values.front();
+  return values.front() + sum / static_cast<double>(values.size());
+}
+
 double central_moment(const std::vector<double>& values, double mean, int power) {
   double sum = 0;
   for (const double value : values) sum += std::pow(value - mean, power);
@@ -27,7 +34,7 @@ double central_moment(const std::vector<double>& values, double mean, int power)
 FormSummary summary_of(const std::vector<double>& sorted) {
   const auto count = static_cast<double>(sorted.size());
   FormSummary summary;
-  for (const double value : sorted) summary.mean += value / count;
+  summary.mean = mean_of(sorted);
   summary.spread = std::sqrt(central_moment(sorted, summary.mean, 2) * count / (count - 1));
   summary.percentile_5 = percentile(sorted, 0.05);
   summary.median = percentile(sorted, 0.5);
@@ -47,16 +54,19 @@ double largest_difference(const std::vector<double>& a, const std::vector<double
   return largest;
 }
 
-double correlation(const std::vector<FormRow>& rows, std::size_t a, std::size_t b) {
-  double mean_a = 0, mean_b = 0, aa = 0, ab = 0, bb = 0;
-  for (const FormRow& row : rows) {
-    mean_a += row[a] / static_cast<double>(rows.size());
-    mean_b += row[b] / static_cast<double>(rows.size());
-  }
-  for (const FormRow& row : rows) {
-    aa += (row[a] - mean_a) * (row[a] - mean_a);
-    ab += (row[a] - mean_a) * (row[b] - mean_b);
-    bb += (row[b] - mean_b) * (row[b] - mean_b);
+std::vector<double> figures_of(const std::vector<FormRow>& rows, std::size_t figure) {
+  std::vector<double> values;
+  for (const FormRow& row : rows) values.push_back(row[figure]);
+  return values;
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const double mean_a = mean_of(a), mean_b = mean_of(b);
+  double aa = 0, ab = 0, bb = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    aa += (a[k] - mean_a) * (a[k] - mean_a);
+    ab += (a[k] - mean_a) * (b[k] - mean_b);
+    bb += (b[k] - mean_b) * (b[k] - mean_b);
   }
   return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
@@ -90,13 +100,13 @@ bool PopulationComparison::agrees() const {
 }
 
 std::vector<double> sorted_figure(const std::vector<FormRow>& rows, std::size_t figure) {
-  std::vector<double> values;
-  for (const FormRow& row : rows) values.push_back(row[figure]);
+  std::vector<double> values = figures_of(rows, figure);
   std::sort(values.begin(), values.end());
   return values;
 }
 
-PopulationComparison compare_populations(const std::vector<FormRow>& reference, const std::vector<FormRow>& made, Samples samples) {
+PopulationComparison compare_populations(const std::vector<FormRow>& reference, const std::vector<FormRow>& made,
+                                         Samples samples) {
   PopulationComparison result{reference.size(), made.size(), {}, {}};
   double per_count = 1 / static_cast<double>(made.size());
   if (samples == Samples::independent) per_count += 1 / static_cast<double>(reference.size());
@@ -104,10 +114,10 @@ PopulationComparison compare_populations(const std::vector<FormRow>& reference, 
     result.figures[c] = compared(sorted_figure(reference, c), sorted_figure(made, c), per_count);
   for (std::size_t a = 0; a < kFormFigures; ++a)
     for (std::size_t b = a + 1; b < kFormFigures; ++b) {
-      const double known = correlation(reference, a, b);
+      const double known = correlation(figures_of(reference, a), figures_of(reference, b));
       const double error = (1 - known * known) * std::sqrt(per_count);
-      result.correlations.push_back(
-          {a, b, known, correlation(made, a, b), std::max(kCorrelation, kStandardErrors * error)});
+      result.correlations.push_back({a, b, known, correlation(figures_of(made, a), figures_of(made, b)),
+                                     std::max(kCorrelation, kStandardErrors * error)});
     }
   for (const FormRow& row : reference) ++result.reference_classes[zingg_class(row[kSOverI], row[kIOverL])];
   for (const FormRow& row : made) ++result.made_classes[zingg_class(row[kSOverI], row[kIOverL])];

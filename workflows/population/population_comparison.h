@@ -12,7 +12,7 @@ namespace workflows {
 
 /// Of one figure over a population; lengths in metres.
 struct FormSummary {
-  double mean = 0, spread = 0;                        // spread: standard deviation
+  double mean = 0, spread = 0;                             // spread: standard deviation
   double percentile_5 = 0, median = 0, percentile_95 = 0;  // between ranks linearly
 };
 
@@ -51,7 +51,8 @@ enum class Samples { independent, drawn_from_reference };
 /// or three (of them, from the reference's fourth moment), correlations within 0.1 or three (1 - r^2) / sqrt(n),
 /// distance within 1.63 / sqrt(n), which chance exceeds once in a hundred (Smirnov 1948); 1 / n is the sum of that of
 /// both for independent samples. A figure that does not vary has correlation 0.
-PopulationComparison compare_populations(const std::vector<FormRow>& reference, const std::vector<FormRow>& made, Samples samples);
+PopulationComparison compare_populations(const std::vector<FormRow>& reference, const std::vector<FormRow>& made,
+                                         Samples samples);
 
 /// Values of one figure, ascending.
 std::vector<double> sorted_figure(const std::vector<FormRow>& rows, std::size_t figure);

@@ -31,8 +31,9 @@ class Strata {
     for (; count >= rows_.size(); count -= rows_.size()) drawn_.insert(drawn_.end(), all_.begin(), all_.end());
     std::vector<std::size_t> rows = all_;
     divide(rows, count);
-    std::sort(drawn_.begin(), drawn_.end(),
-              [&](std::size_t a, std::size_t b) { return std::tie(rows_[a][kDiameter], a) < std::tie(rows_[b][kDiameter], b); });
+    std::sort(drawn_.begin(), drawn_.end(), [&](std::size_t a, std::size_t b) {
+      return std::tie(rows_[a][kDiameter], a) < std::tie(rows_[b][kDiameter], b);
+    });
     return drawn_;
   }
 
@@ -58,8 +59,8 @@ class Strata {
               [&](std::size_t a, std::size_t b) { return std::tie(rows_[a][c], a) < std::tie(rows_[b][c], b); });
     // Rounded up or down by chance, so that no row is favoured.
     const double place = static_cast<double>(cell.size()) * static_cast<double>(lower) / static_cast<double>(count);
-    const auto middle = std::clamp(static_cast<std::size_t>(place + random_.uniform()), lower,
-                                   cell.size() - (count - lower));
+    const auto middle =
+        std::clamp(static_cast<std::size_t>(place + random_.uniform()), lower, cell.size() - (count - lower));
     divide(cell.first(middle), lower);
     divide(cell.subspan(middle), count - lower);
   }
