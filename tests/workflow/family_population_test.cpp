@@ -26,8 +26,9 @@ constexpr int kCount = 20;
 /// Grains whose S/I falls with their size (correlation -0.9) and whose I/L does not follow it.
 std::string made_reference() {
   workflows::RandomSource random(1);
-  std::string text = "equivalent_diameter_volume [mm],s_over_i_inertia,i_over_l_inertia,convexity_volume_ratio,"
-                     "sphericity_wadell\n";
+  std::string text =
+      "equivalent_diameter_volume [mm],s_over_i_inertia,i_over_l_inertia,convexity_volume_ratio,"
+      "sphericity_wadell\n";
   for (int k = 0; k < 400; ++k) {
     const double size = random.uniform(), other = random.uniform(), convexity = 0.88 + 0.06 * random.uniform();
     const double s_over_i = 0.95 - 0.2 * size - 0.097 * other;
@@ -103,13 +104,13 @@ TEST(FamilyPopulation, RefusesByName) {
   const TemporaryFolder folder;
   write_bytes(folder / "empty.csv", "");
   write_bytes(folder / "sand.csv", made_reference());
-  const ToolRun empty = run(folder, kFamily + "population empty.csv --count 3 --into a.talus");
+  const ToolRun empty = run(folder, kFamily + "population empty.csv --count 10 --into a.talus");
   EXPECT_EQ(empty.status, 3);
   EXPECT_NE(empty.errors.find("empty.csv: is empty"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder / "a.talus"));
   EXPECT_EQ(run(folder, kFamily + "population sand.csv --count 1 --into a.talus").status, 2);
-  EXPECT_EQ(run(folder, kFamily + "population sand.csv --count 3 --into a.talus --select 'volume > 0'").status, 2);
-  EXPECT_EQ(run(folder, kFamily + "population sand.csv --count 3 --into sand.csv").status, 3);
+  EXPECT_EQ(run(folder, kFamily + "population sand.csv --count 10 --into a.talus --select 'volume > 0'").status, 2);
+  EXPECT_EQ(run(folder, kFamily + "population sand.csv --count 10 --into sand.csv").status, 3);
 }
 
 }  // namespace

@@ -54,10 +54,10 @@ TEST(FormTable, ReadsTheSandAtlasWithFlatnessAsSOverI) {
 }
 
 TEST(FormTable, ReadsItsOwnNamesInMetresOrTheUnitBesideThem) {
-  for (const auto& [heading, diameter] : {std::pair("equivalent_diameter_volume", "0.002"),
-                                          std::pair("equivalent_diameter_volume [mm]", "2")}) {
-    std::string text = std::string("sphericity_wadell,") + heading +
-                       ",convexity_volume_ratio [%],i_over_l_inertia,s_over_i_inertia\n";
+  for (const auto& [heading, diameter] :
+       {std::pair("equivalent_diameter_volume", "0.002"), std::pair("equivalent_diameter_volume [mm]", "2")}) {
+    std::string text =
+        std::string("sphericity_wadell,") + heading + ",convexity_volume_ratio [%],i_over_l_inertia,s_over_i_inertia\n";
     for (int k = 0; k < 10; ++k) text += std::string("0.8,") + diameter + ",90,0.7,0.6\n";
     const TemporaryFolder folder;
     write_bytes(folder / "own.csv", text);
@@ -101,7 +101,9 @@ TEST(FormTable, RefusesByFileLineAndColumn) {
   EXPECT_THROW(read_form_table(folder / "sand.csv", "volume > 0"), catalog::UsageError);
 }
 
-FormRow row_of(double diameter, double s_over_i, double i_over_l = 0.8) { return {diameter, s_over_i, i_over_l, 0.9, 0.8}; }
+FormRow row_of(double diameter, double s_over_i, double i_over_l = 0.8) {
+  return {diameter, s_over_i, i_over_l, 0.9, 0.8};
+}
 
 TEST(PopulationComparison, HasTheMomentsAndDistancesOfSmallSamples) {
   std::vector<FormRow> reference, made;
