@@ -56,7 +56,7 @@ TEST(FamilyPopulation, FindsTheCorrelationsOfAMadeReferenceAgain) {
   const TemporaryFolder folder;
   write_bytes(folder / "sand.csv", made_reference());
   const std::string command = kFamily + "population sand.csv --seed 3 --count " + std::to_string(kCount) + " --into ";
-  const ToolRun first = run(folder, command + "a.talus --plot a.svg");
+  const ToolRun first = run(folder, command + "a.talus --plot a.svg --threads 1");
   ASSERT_EQ(first.status, 0) << first.output << first.errors;
   EXPECT_NE(first.output.find("population_targets_reached"), std::string::npos);
   EXPECT_NE(read_bytes(folder / "a.svg").find("</svg>"), std::string::npos);

@@ -12,7 +12,7 @@ namespace workflows {
 struct MatchedShapesOptions {
   std::size_t count = 100;
   std::uint64_t seed = 1;
-  int threads = 1;
+  int threads = 0;  // 0: as many as the machine has
 };
 
 /// New solids with the forms of drawn rows; names and provenance are left to the caller.

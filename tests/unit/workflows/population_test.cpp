@@ -8,6 +8,7 @@
 
 #include "catalog/input_error.h"
 #include "tests/support/temporary_folder.h"
+#include "workflows/catalog_listing.h"
 #include "workflows/population/comparison_report.h"
 #include "workflows/population/stratified_rows.h"
 #include "workflows/shape_sampling.h"
@@ -143,6 +144,14 @@ TEST(ZinggClass, PartsTheFourAtTwoThirds) {
   EXPECT_STREQ(kZinggClasses[zingg_class(0.3, 0.9)], "disc");
   EXPECT_STREQ(kZinggClasses[zingg_class(0.9, 0.3)], "rod");
   EXPECT_STREQ(kZinggClasses[zingg_class(0.3, 0.3)], "blade");
+}
+
+TEST(CatalogListing, NamesZinggsClassWhereTheSidesAreKnown) {
+  catalog::ShapeSummary rod, unknown;
+  rod.descriptors = {{"zingg_s_over_i", 0.9}, {"zingg_i_over_l", 0.4}};
+  EXPECT_NE(list_text({rod}).find(" rod "), std::string::npos);
+  EXPECT_NE(list_json({rod}).find("\"zingg_class\": \"rod\""), std::string::npos);
+  EXPECT_NE(list_json({unknown}).find("\"zingg_class\": null"), std::string::npos);
 }
 
 TEST(StratifiedRows, KeepTheDistributionCloserThanChance) {
