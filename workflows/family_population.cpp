@@ -25,25 +25,23 @@ namespace fs = std::filesystem;
 std::string options_text(const PopulationLine& line, const FormTable& reference, std::size_t number, std::size_t row) {
   nlohmann::ordered_json target;
   for (std::size_t c = 0; c < kFormFigures; ++c) target[kFormNames[c]] = reference.rows[row][c];
-  const nlohmann::ordered_json options{{"action", "population"},    {"count", line.options.count},
-                                       {"seed", line.options.seed}, {"select", line.select},
-                                       {"number", number},          {"row", row + 1},
-                                       {"target", target},          {"axes", reference.axes}};
+  const nlohmann::ordered_json options{{"action", "population"}, {"count", line.count},   {"seed", line.options.seed},
+                                       {"select", line.select},  {"number", number},      {"row", row + 1},
+                                       {"target", target},       {"axes", reference.axes}};
   return options.dump();
 }
 
 /// Shapes are made all together, once one is found missing: each carries the checks of all.
 std::vector<ShapeOrder> orders_of(const PopulationLine& line, const FormTable& reference,
-                                  std::optional<MatchedShapes>& made) {
+                                  const std::vector<std::size_t>& rows, std::optional<MatchedShapes>& made) {
   const std::string name = line.name.empty() ? line.reference.stem().string() : line.name;
-  const std::vector<std::size_t> rows = stratified_rows(reference.rows, line.options.count, line.options.seed);
   std::vector<ShapeOrder> orders;
   for (std::size_t k = 0; k < rows.size(); ++k)
     orders.push_back(
         {formatted("%s_%04zu", name.c_str(), k + 1),
          {reference.source, reference.sha256, tool_version(), options_text(line, reference, k + 1, rows[k])},
-         [&line, &reference, &made, k] {
-           if (!made) made = matched_shapes(reference, line.options);
+         [&, k] {
+           if (!made) made = matched_shapes(reference, rows, line.options);
            return made->shapes[k];
          }});
   return orders;
@@ -117,16 +115,16 @@ void declare_population(CLI::App& app, PopulationLine& line) {
   command->add_flag("--json", line.is_json, "one JSON object on stdout");
 }
 
-int run_population(const PopulationLine& given) {
-  PopulationLine line = given;
-  line.options.count = static_cast<std::size_t>(line.count);
+int run_population(const PopulationLine& line) {
   const FormTable reference = read_form_table(line.reference, line.select);
   if (fs::exists(line.catalog_path) && fs::equivalent(line.catalog_path, line.reference))
     throw catalog::InputError(line.catalog_path.string() +
                               ": is the reference itself, which would change with every run; name another by --into");
   catalog::ShapeCatalog catalog = catalogue_to_fill(line.catalog_path);
+  const std::vector<std::size_t> rows =
+      representative_rows(reference.rows, static_cast<std::size_t>(line.count), line.options.seed);
   std::optional<MatchedShapes> made;
-  return report(line, reference, catalog, make_shapes(catalog, orders_of(line, reference, made)));
+  return report(line, reference, catalog, make_shapes(catalog, orders_of(line, reference, rows, made)));
 }
 
 }  // namespace workflows

@@ -10,7 +10,6 @@
 #include "shape_pipeline/target_grain.h"
 #include "workflows/in_order.h"
 #include "workflows/population/comparison_report.h"
-#include "workflows/population/stratified_rows.h"
 #include "workflows/shape_sampling.h"
 #include "workflows/text_format.h"
 
@@ -63,28 +62,30 @@ std::vector<catalog::Check> population_checks(const MatchedShapes& made, const F
 
 }  // namespace
 
-MatchedShapes matched_shapes(const FormTable& reference, const MatchedShapesOptions& options) {
-  MatchedShapes result;
-  result.rows = stratified_rows(reference.rows, options.count, options.seed);
-  RandomSource random(~options.seed);  // other numbers than the draw's
+MatchedShapes matched_shapes(const FormTable& reference, const std::vector<std::size_t>& rows,
+                             const MatchedShapesOptions& options) {
+  RandomSource random(~options.seed);  // other numbers than a draw of rows with this seed has
   std::vector<std::uint64_t> seeds;
-  for (std::size_t k = 0; k < options.count; ++k) seeds.push_back(random.next());
-  const auto place = [](int k) { return static_cast<std::size_t>(k); };
+  for (std::size_t k = 0; k < rows.size(); ++k) seeds.push_back(random.next());
 
+  MatchedShapes result;
   OrderedWork<Made> work;
-  work.count = static_cast<int>(options.count);
+  work.count = static_cast<int>(rows.size());
   work.threads = threads_to_use(options.threads);
   work.begin = [](int) {};
-  work.make = [&](int k) { return made_shape(reference.rows[result.rows[place(k)]], seeds[place(k)]); };
+  work.make = [&](int k) {
+    const auto place = static_cast<std::size_t>(k);
+    return made_shape(reference.rows[rows[place]], seeds[place]);
+  };
   work.take = [&](int, Made&& made) {
     result.shapes.push_back(std::move(made.shape));
     result.reached += made.is_reached ? 1 : 0;
   };
   run_in_order(work);
 
-  std::vector<FormRow> rows;
-  for (const catalog::ShapeRecord& shape : result.shapes) rows.push_back(form_row("a made grain", shape.descriptors));
-  result.comparison = compare_populations(reference.rows, rows, Samples::drawn_from_reference);
+  std::vector<FormRow> forms;
+  for (const catalog::ShapeRecord& shape : result.shapes) forms.push_back(form_row("a made grain", shape.descriptors));
+  result.comparison = compare_populations(reference.rows, forms, Samples::drawn_from_reference);
   const std::vector<catalog::Check> checks = population_checks(result, reference);
   for (catalog::ShapeRecord& shape : result.shapes)
     shape.checks.insert(shape.checks.end(), checks.begin(), checks.end());

@@ -3,14 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <tuple>
+#include <utility>
 
+#include "workflows/population/population_comparison.h"
 #include "workflows/shape_sampling.h"
 
 namespace workflows {
 namespace {
+
+constexpr std::size_t kMostDraws = 64, kFewestDraws = 4;
+constexpr std::size_t kRowsLookedAt = 640000;  // by all draws together: half a second
 
 double variance(const std::vector<FormRow>& rows, std::span<const std::size_t> cell, std::size_t figure) {
   const auto count = static_cast<double>(cell.size());
@@ -71,10 +77,39 @@ class Strata {
   std::array<double, kFormFigures> whole_{};
 };
 
+double difference_of(const PopulationComparison& comparison) {
+  double sum = 0;
+  for (const FigureComparison& figure : comparison.figures) {
+    if (!(figure.reference.spread > 0)) continue;
+    sum += std::pow((figure.made.mean - figure.reference.mean) / figure.reference.spread, 2);
+    sum += std::pow(figure.made.spread / figure.reference.spread - 1, 2);
+  }
+  for (const CorrelationComparison& pair : comparison.correlations) sum += std::pow(pair.made - pair.reference, 2);
+  return sum;
+}
+
 }  // namespace
 
 std::vector<std::size_t> stratified_rows(const std::vector<FormRow>& rows, std::size_t count, std::uint64_t seed) {
   return Strata(rows, seed).draw(count);
+}
+
+std::vector<std::size_t> representative_rows(const std::vector<FormRow>& rows, std::size_t count, std::uint64_t seed) {
+  RandomSource random(seed);
+  std::vector<std::size_t> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  const std::size_t draws = std::clamp(kRowsLookedAt / rows.size(), kFewestDraws, kMostDraws);
+  for (std::size_t k = 0; k < draws; ++k) {
+    std::vector<std::size_t> drawn = stratified_rows(rows, count, random.next());
+    std::vector<FormRow> made;
+    for (const std::size_t row : drawn) made.push_back(rows[row]);
+    const double difference = difference_of(compare_populations(rows, made, Samples::drawn_from_reference));
+    if (difference < least) {
+      least = difference;
+      nearest = std::move(drawn);
+    }
+  }
+  return nearest;
 }
 
 }  // namespace workflows

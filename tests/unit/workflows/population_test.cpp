@@ -177,6 +177,25 @@ TEST(StratifiedRows, KeepTheDistributionCloserThanChance) {
   EXPECT_TRUE(comparison.agrees());
 }
 
+TEST(RepresentativeRows, AreNearerThanOneDraw) {
+  std::vector<FormRow> rows;
+  RandomSource random(2);
+  for (int k = 0; k < 1000; ++k)
+    rows.push_back({1 + random.uniform(), random.uniform(), random.uniform(), random.uniform(), random.uniform()});
+  const auto largest_correlation = [&](const std::vector<std::size_t>& drawn) {
+    std::vector<FormRow> made;
+    for (const std::size_t row : drawn) made.push_back(rows[row]);
+    double largest = 0;
+    for (const CorrelationComparison& pair :
+         compare_populations(rows, made, Samples::drawn_from_reference).correlations)
+      largest = std::max(largest, std::abs(pair.made - pair.reference));
+    return largest;
+  };
+  double of_one = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) of_one += largest_correlation(stratified_rows(rows, 40, seed)) / 10;
+  EXPECT_LT(largest_correlation(representative_rows(rows, 40, 1)), of_one);
+}
+
 TEST(StratifiedRows, TakeEachAsOftenAsItGoesWhole) {
   std::vector<FormRow> rows;
   for (int k = 0; k < 10; ++k) rows.push_back(row_of(k + 1, 0.5));

@@ -6,6 +6,7 @@
 #include "workflows/bench/cpu_clock.h"
 #include "workflows/bench/digitize/digitize_cases.h"
 #include "workflows/population/matched_shapes.h"
+#include "workflows/population/stratified_rows.h"
 
 namespace workflows {
 namespace {
@@ -25,7 +26,7 @@ CaseResult measure_population(const std::filesystem::path& scans) {
   };
   const FormTable reference = read_form_table(scans / kPopulationFile, "");
   const CpuClock clock;
-  const MatchedShapes made = matched_shapes(reference, {kGrains, 1, 1});
+  const MatchedShapes made = matched_shapes(reference, representative_rows(reference.rows, kGrains, 1), {1, 1});
   const double seconds = clock.seconds();
   for (std::size_t c = 0; c < kFormFigures; ++c) {
     const FigureComparison& figure = made.comparison.figures[c];
