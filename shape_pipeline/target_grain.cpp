@@ -29,10 +29,10 @@ constexpr double kReached = 1e-3;               // error of convexity and spheri
 constexpr double kFineConvexity = 2e-4;         // so that the search for the sphericity is not led by its noise
 constexpr int kDetail = 7;                      // faces along a quarter turn: 2.8 to the finest wave
 constexpr int kLowestDegree = 3, kDegree = 10;  // 2 is the ellipsoid's
-constexpr std::array kExponents{2.0, 0.0, 8.0};
+constexpr std::array kExponents{2.0, 0.0, 4.0, 8.0};
 constexpr double kMostAmplitude = 0.8;  // beyond it radii differ tenfold
-constexpr double kMostPeaks = -2.5, kMostHollows = 2;
-constexpr double kSkewStep = 0.5, kFirstAmplitude = 0.04;
+constexpr double kMostLevel = 1.5;      // beyond it one bump or dent is left
+constexpr double kLevelStep = 0.5, kFirstAmplitude = 0.04;
 constexpr int kSteps = 40;  // of one search; a dozen suffice
 
 /// The sphere and its harmonics at each vertex, degree by degree.
@@ -78,9 +78,9 @@ std::vector<double> gaussian_field(RandomStream& random, double exponent) {
   return field;
 }
 
-std::vector<double> skewed(std::vector<double> field, double skew) {
-  if (skew == 0) return field;
-  for (double& value : field) value = -std::expm1(-skew * value) / skew;
+/// Bounded, so that no grain has needles or pinholes: all its bumps are as high as one another, its dents as deep.
+std::vector<double> relief(std::vector<double> field, double level) {
+  for (double& value : field) value = std::tanh(value - level);
   standardise(field);
   return field;
 }
@@ -140,28 +140,33 @@ class Search {
   Search(const GrainForm& form, std::vector<double> field) : form_(form), field_(std::move(field)) {}
 
   TargetGrain nearest() {
-    Trial last{0, error_at(0)};
-    // More hollows take from the sphericity at equal convexity, peaks add to it.
-    const double step = last.error > 0 ? kSkewStep : -kSkewStep;
-    while (std::abs(last.error) > kReached) {
-      const double skew = last.place + step;
-      if (skew < kMostPeaks || skew > kMostHollows) break;
-      const Trial next{skew, error_at(skew)};
-      if ((next.error < 0) != (last.error < 0)) {
-        root_between(last, next, kReached, [&](double place) { return error_at(place); });
-        break;
-      }
-      last = next;
-    }
+    const Trial middle{0, error_at(0)};
+    // At equal convexity a body with bumps has less surface than one with dents, unless its bumps are its corners.
+    const double first = middle.error > 0 ? -kLevelStep : kLevelStep;
+    for (const double step : {first, -first})
+      if (std::abs(best_.sphericity_error) > kReached && walked(middle, step)) break;
     return best_;
   }
 
  private:
-  /// Of the sphericity at this skew; keeps the nearest grain.
-  double error_at(double skew) {
-    const std::vector<double> field = skewed(field_, skew);
+  /// Whether the error changes its sign on the way; the nearest is then known.
+  bool walked(Trial last, double step) {
+    for (double level = last.place + step; std::abs(level) <= kMostLevel; level += step) {
+      const Trial next{level, error_at(level)};
+      if ((next.error < 0) != (last.error < 0)) {
+        root_between(last, next, kReached, [&](double place) { return error_at(place); });
+        return true;
+      }
+      last = next;
+    }
+    return false;
+  }
+
+  /// Of the sphericity at this level; keeps the nearest grain.
+  double error_at(double level) {
+    const std::vector<double> field = relief(field_, level);
     const Trial amplitude = amplitude_for(field);
-    TargetGrain grain{with_axes(surface(field, amplitude.place), form_), amplitude.error, 0, amplitude.place, skew};
+    TargetGrain grain{with_axes(surface(field, amplitude.place), form_), amplitude.error, 0, amplitude.place, level};
     grain.sphericity_error = sphericity_of(grain.mesh) - form_.sphericity;
     const double error = grain.sphericity_error;
     if (best_.mesh.vertices.empty() || miss(grain) < miss(best_)) best_ = std::move(grain);

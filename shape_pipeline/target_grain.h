@@ -22,7 +22,7 @@ struct TargetGrain {
   double convexity_error = 0;   // made less asked for
   double sphericity_error = 0;  // made less asked for
   double amplitude = 0;         // a: standard deviation of the logarithm of the radius
-  double skew = 0;              // k: above 0 the surface has hollows, below 0 peaks
+  double level = 0;             // q: above 0 the surface has bumps, below 0 dents
   double exponent = 0;          // b of the spectrum
   int fields = 0;               // random fields tried
 
@@ -30,13 +30,12 @@ struct TargetGrain {
   bool is_reached() const;
 };
 
-/// A random grain of the form. The radius about a point is exp(a g), g a standardised random field with hollows or
-/// peaks: g = (1 - exp(-k f)) / k of a Gaussian field f of spherical harmonics of degrees 3 to 10 whose power a degree
-/// falls as degree^-b (f: Grigoriu, Garboczi & Kafali 2006). One linear map then gives the solid the axes of inertia
-/// asked for; convexity does not change under it. a is found so that the convexity comes out, k in [-2.5, 2] so that
-/// the sphericity does, both by false position; b is 2, and where k does not reach, other fields with b = 0 and 8 are
-/// tried and the nearest is kept. The same form and seed give the same grain. Throws InputError for a figure that no
-/// solid has.
+/// A random grain of the form. The radius about a point is exp(a g), g = tanh(f - q) standardised, f a Gaussian field
+/// of spherical harmonics of degrees 3 to 10 whose power a degree falls as degree^-b (f: Grigoriu, Garboczi & Kafali
+/// 2006). One linear map then gives the solid the axes of inertia asked for; convexity does not change under it. a is
+/// found so that the convexity comes out, q in [-1.5, 1.5] so that the sphericity does, both by false position; b is 2,
+/// and where q does not reach, other fields with b = 0, 4 and 8 are tried and the nearest is kept: the convexity is met
+/// before the sphericity. The same form and seed give the same grain. Throws InputError for a figure that no solid has.
 TargetGrain target_grain(const GrainForm& form, std::uint64_t seed);
 
 }  // namespace shape_pipeline

@@ -58,7 +58,7 @@ std::string report_text(const std::string& comparison, const std::vector<catalog
                         const std::vector<MadeShape>& shapes) {
   std::string text = comparison;
   for (const catalog::Check& check : checks)
-    if (check.name.ends_with("_reached") || check.name.ends_with("_assumption"))
+    if (check.name.ends_with("_targets") || check.name.ends_with("_assumption"))
       text += formatted("%s %.4g: %s\n", check.name.c_str(), check.figure, check.detail.c_str());
   return text +
          formatted("%zu shapes, %s to %s\n", shapes.size(), shapes.front().name.c_str(), shapes.back().name.c_str());

@@ -18,6 +18,8 @@ struct MatchedShapesOptions {
 struct MatchedShapes {
   std::vector<catalog::ShapeRecord> shapes;  // one a row, checked and described
   std::size_t reached = 0;                   // shapes whose convexity and sphericity are as in the row, to 0.001
+  double sphericity_miss = 0;                // root mean square of made less asked for
+  double largest_miss = 0;                   // the same, largest magnitude
   PopulationComparison comparison;           // of the reference with what was made
 };
 
