@@ -71,7 +71,7 @@ void CloudBatch::run() {
   progress_.finish();
 }
 
-CloudBatch::Grain CloudBatch::merged(const Job& job) const {
+CloudBatch::Grain CloudBatch::merged(const Job& job) {
   Grain whole;
   std::vector<PartialScan> parts;
   for (const fs::path& file : job.files) {
@@ -81,7 +81,10 @@ CloudBatch::Grain CloudBatch::merged(const Job& job) const {
     shape_pipeline::CloudReading reading;
     reading.metres_per_unit = digitization_.metres_per_unit;
     reading.drops_nan_points = digitization_.drops_nan_points;
-    PointCloud cloud = shape_pipeline::read_cloud(file, reading).cloud;
+    shape_pipeline::CloudFile read = shape_pipeline::read_cloud(file, reading);
+    whole.checks.insert(whole.checks.end(), read.notes.begin(), read.notes.end());
+    if (const std::string note = sampling_note(file, read.notes); !note.empty()) progress_.note(note);
+    PointCloud cloud = std::move(read.cloud);
     if (settings_.removes_plane) {
       shape_pipeline::ClearedCloud cleared = shape_pipeline::without_floor(cloud, file.string());
       cloud = std::move(cleared.cloud);

@@ -45,7 +45,7 @@ class CloudBatch {
   };
   void digitize(const Job& job);
   bool is_done(const Job& job, const catalog::Provenance& provenance);
-  Grain merged(const Job& job) const;
+  Grain merged(const Job& job);
   void store(const Job& job, const std::string& name, const catalog::Provenance& provenance, const Grain& grain);
   void reject(const Job& job, const std::string& name, const std::string& hash, const std::string& reason);
 

@@ -103,6 +103,7 @@ DigitizationOptions digitization_options(const ScanSettings& settings) {
   options.metres_per_unit = *unit;
   options.drops_nan_points = settings.drops_nan;
   options.reconstruction.genus = settings.genus;
+  options.bodies = settings.bodies;
   if (settings.method == "poisson") options.reconstruction.method = ReconstructionMethod::poisson;
   if (settings.method == "alpha-wrap") options.reconstruction.method = ReconstructionMethod::alpha_wrap;
   options.remeshing.face_limit = static_cast<std::size_t>(settings.faces);
@@ -125,6 +126,8 @@ std::string scan_options_text(const ScanSettings& settings, const std::optional<
                                  {"remeshing", settings.is_isotropic ? "isotropic" : "edge_collapse"},
                                  {"method", settings.method}};
   if (settings.drops_nan) options["drop_nan"] = true;
+  if (settings.bodies != catalog::SeparateBodies::refuse)
+    options["bodies"] = catalog::separate_bodies_name(settings.bodies);
   if (!settings.size.empty()) options["size"] = settings.size;
   if (truth) options["truth"] = {{"volume", truth->volume}, {"surface_area", truth->surface_area}};
   return options.dump();
@@ -139,6 +142,15 @@ std::string hash_of_files(const std::vector<fs::path>& files) {
 
 bool have_one_source(const catalog::Provenance& a, const catalog::Provenance& b) {
   return a.source_sha256 == b.source_sha256 && a.options == b.options && a.tool_version == b.tool_version;
+}
+
+std::string sampling_note(const fs::path& scan, const std::vector<catalog::Check>& checks) {
+  for (const catalog::Check& check : checks) {
+    char count[32];
+    std::snprintf(count, sizeof count, "%.0f ", check.figure);
+    if (check.name == "subsampled_points") return scan.string() + ": " + count + check.detail;
+  }
+  return "";
 }
 
 // SQLite takes an empty file for a new database, but it may be anything of the user's.
@@ -218,6 +230,7 @@ DigitizedScan DigitizeBatch::stored(std::size_t s, Prepared&& prepared) {
   } else {
     prepared.shape->name = name;
     prepared.shape->provenance = prepared.provenance;
+    if (const std::string note = sampling_note(scans_[s], prepared.shape->checks); !note.empty()) progress_.note(note);
     catalog_->store_shape(*prepared.shape);
   }
   outcome.summary = catalog_->summary(*catalog_->find(name));
