@@ -149,7 +149,7 @@ class Search {
   }
 
  private:
-  /// Whether the error changes its sign on the way; the nearest is then known.
+  /// Whether the error changes its sign on the way, which ends where it grows; the nearest is then known.
   bool walked(Trial last, double step) {
     for (double level = last.place + step; std::abs(level) <= kMostLevel; level += step) {
       const Trial next{level, error_at(level)};
@@ -157,6 +157,7 @@ class Search {
         root_between(last, next, kReached, [&](double place) { return error_at(place); });
         return true;
       }
+      if (std::abs(next.error) > std::abs(last.error)) return false;
       last = next;
     }
     return false;
