@@ -25,19 +25,24 @@
 namespace shape_pipeline {
 namespace {
 
-constexpr double kReached = 1e-3;               // error of convexity and sphericity: a tenth of a measured grain's
-constexpr double kFineConvexity = 2e-4;         // so that the search for the sphericity is not led by its noise
-constexpr int kDetail = 7;                      // faces along a quarter turn: 2.8 to the finest wave
-constexpr int kLowestDegree = 3, kDegree = 10;  // 2 is the ellipsoid's
+constexpr double kReached = 1e-3;              // error of convexity and sphericity: a tenth of a measured grain's
+constexpr double kFineConvexity = 2e-4;        // so that the search for the sphericity is not led by its noise
+constexpr int kDetail = 6;                     // faces along a quarter turn: 2.7 to the finest wave
+constexpr int kLowestDegree = 3, kDegree = 9;  // 2 is the ellipsoid's
 constexpr std::array kExponents{2.0, 0.0, 4.0, 8.0};
 constexpr double kMostAmplitude = 0.8;  // beyond it radii differ tenfold
 constexpr double kMostLevel = 1.5;      // beyond it one bump or dent is left
 constexpr double kLevelStep = 0.5, kFirstAmplitude = 0.04;
 constexpr int kSteps = 40;  // of one search; a dozen suffice
 
+double convexity_of(const catalog::TriangleMesh& mesh) {
+  return signed_volume(mesh) / signed_volume(convex_hull(mesh.vertices));
+}
+
 /// The sphere and its harmonics at each vertex, degree by degree.
 struct UnitSphere {
   catalog::TriangleMesh mesh = superquadric_solid({}, kDetail).mesh;
+  double convexity = convexity_of(mesh);
   std::vector<std::vector<double>> harmonics;
 
   UnitSphere() {
@@ -90,10 +95,6 @@ catalog::TriangleMesh surface(const std::vector<double>& field, double amplitude
   for (std::size_t v = 0; v < field.size(); ++v)
     mesh.vertices[v] = scaled(mesh.vertices[v], std::exp(amplitude * field[v]));
   return mesh;
-}
-
-double convexity_of(const catalog::TriangleMesh& mesh) {
-  return signed_volume(mesh) / signed_volume(convex_hull(mesh.vertices));
 }
 
 double sphericity_of(const catalog::TriangleMesh& mesh) {
@@ -179,7 +180,7 @@ class Search {
   /// The least amplitude that gives the convexity, or where it comes nearest, with the error of the convexity.
   Trial amplitude_for(const std::vector<double>& field) {
     const auto error_at = [&](double amplitude) { return convexity_of(surface(field, amplitude)) - form_.convexity; };
-    Trial low{0, error_at(0)};
+    Trial low{0, unit_sphere().convexity - form_.convexity};
     if (low.error <= kFineConvexity) return low;
     Trial high{guess_, error_at(guess_)};
     while (high.error > kFineConvexity && high.place < kMostAmplitude) {

@@ -18,7 +18,7 @@ struct GrainForm {
 
 /// A grain made to a form, and how near it came. Diameter and axes are exact.
 struct TargetGrain {
-  catalog::TriangleMesh mesh;   // 2,352 faces, star-shaped about a point inside, outward; centroid at the origin [m]
+  catalog::TriangleMesh mesh;   // 1,728 faces, star-shaped about a point inside, outward; centroid at the origin [m]
   double convexity_error = 0;   // made less asked for
   double sphericity_error = 0;  // made less asked for
   double amplitude = 0;         // a: standard deviation of the logarithm of the radius
@@ -31,7 +31,7 @@ struct TargetGrain {
 };
 
 /// A random grain of the form. The radius about a point is exp(a g), g = tanh(f - q) standardised, f a Gaussian field
-/// of spherical harmonics of degrees 3 to 10 whose power a degree falls as degree^-b (f: Grigoriu, Garboczi & Kafali
+/// of spherical harmonics of degrees 3 to 9 whose power a degree falls as degree^-b (f: Grigoriu, Garboczi & Kafali
 /// 2006). One linear map then gives the solid the axes of inertia asked for; convexity does not change under it. a is
 /// found so that the convexity comes out, q in [-1.5, 1.5] so that the sphericity does, both by false position; b is 2,
 /// and where q does not reach, other fields with b = 0, 4 and 8 are tried and the nearest is kept: the convexity is met
