@@ -26,9 +26,9 @@ struct MatchedShapes {
 /// Each solid takes size, axes, convexity and sphericity of one of the reference's rows (at least two) as far as a
 /// random star-shaped field reaches them (shape_pipeline/target_grain.h); its check "target_sphericity" has how far it
 /// is off. Every shape carries the checks of the whole population: "population_" with the name of each figure
-/// (difference of the means over the reference's), "population_correlations" (largest difference),
-/// "population_targets_reached" (share, expected 0.9 at least) and "population_assumption". The same table, rows and
-/// options give the same bytes for any number of threads.
+/// (difference of the means over the reference's), "population_correlations" (largest difference), "population_targets"
+/// (sphericity_miss over the reference's standard deviation, expected 0.3 at most) and "population_assumption". The
+/// same table, rows and options give the same bytes for any number of threads.
 MatchedShapes matched_shapes(const FormTable& reference, const std::vector<std::size_t>& rows,
                              const MatchedShapesOptions& options);
 
