@@ -102,6 +102,15 @@ TEST(FormTable, RefusesByFileLineAndColumn) {
   EXPECT_THROW(read_form_table(folder / "sand.csv", "volume > 0"), catalog::UsageError);
 }
 
+TEST(FormTable, NamesTheShapeThatLacksADescriptor) {
+  try {
+    form_row("rock_7", {{"equivalent_diameter_volume", 1e-3}});
+    ADD_FAILURE() << "was taken";
+  } catch (const catalog::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("rock_7: has no descriptor axis_intermediate_inertia"), std::string::npos);
+  }
+}
+
 FormRow row_of(double diameter, double s_over_i, double i_over_l = 0.8) {
   return {diameter, s_over_i, i_over_l, 0.9, 0.8};
 }
