@@ -88,8 +88,8 @@ Groups meeting(const std::vector<catalog::TriangleMesh>& solids, std::string& re
   return groups;
 }
 
-/// Whether two solids share but edges or corners: drawn together by a billionth of its size, neither meets the other any
-/// more. Bodies that hook into one another do not come apart so, and are taken to cut.
+/// Whether two solids share but edges or corners: drawn together by a billionth of its size, neither meets the other
+/// any more. Bodies that hook into one another do not come apart so, and are taken to cut.
 bool merely_touch(const catalog::TriangleMesh& a, const catalog::TriangleMesh& b) {
   const std::size_t faces = drawn_together(a).faces.size();
   catalog::TriangleMesh both = drawn_together(a);
