@@ -12,14 +12,18 @@
 #include "shape_pipeline/meshes/self_intersections.h"
 #include "shape_pipeline/meshes/surface_pieces.h"
 #include "shape_pipeline/meshes/surface_repair.h"
+#include "shape_pipeline/reading/scan_extent.h"
 
 namespace shape_pipeline {
 namespace {
 
 constexpr double kLargeShare = 0.1;  // of the area: ten surfaces at most are as large
 
-RepairedMesh with_deviation(const catalog::TriangleMesh& input, RepairedMesh result) {
-  if (result.refusal.empty()) add_deviation(input, result);
+/// The largest surface; the others count as deviation, but not what cleaning took out.
+RepairedMesh largest_alone(CleanedScan scan, const RepairOptions& options) {
+  const catalog::TriangleMesh cleaned = scan.repair.mesh;
+  RepairedMesh result = repaired_surface(std::move(scan), options);
+  if (result.refusal.empty()) add_deviation(cleaned, result);
   return result;
 }
 
@@ -30,8 +34,9 @@ struct OtherSurfaces {
   bool do_meet = false;                  // some of the bodies
 };
 
-/// Whether a surface with holes is a body all the same: its patches would be small. Torn sheets are none.
+/// Whether a surface with holes is a body all the same: its patches would be small. Torn and flat sheets are none.
 bool is_nearly_closed(const SurfacePiece& piece) {
+  if (are_flat(piece.mesh.vertices)) return false;
   if (mesh_topology(piece.mesh).is_closed()) return true;
   catalog::TriangleMesh filled = piece.mesh;
   return fill_holes(filled).filled_area <= kLargestFilledShare * piece.area && mesh_topology(filled).is_closed();
@@ -80,7 +85,11 @@ OtherSurfaces other_surfaces(const catalog::TriangleMesh& mesh) {
 RepairedMesh refused_others(const OtherSurfaces& others) {
   char line[120];
   RepairedMesh result;
-  if (others.bodies > 1) {
+  if (others.bodies > kMostSurfaces) {
+    std::snprintf(line, sizeof line, "%zu separate bodies, expected one, or at most %zu to join", others.bodies,
+                  kMostSurfaces);
+    result.remedy = "take the scraps out of the scan, or keep the largest body alone with --bodies largest";
+  } else if (others.bodies > 1) {
     std::snprintf(line, sizeof line, "%zu separate bodies, the largest surface with %.1f %% of the area, expected one",
                   others.bodies, 100 * others.largest_share);
     result.remedy = "take them as one grain with --bodies join, or the largest alone with --bodies largest";
@@ -94,10 +103,9 @@ RepairedMesh refused_others(const OtherSurfaces& others) {
 }
 
 /// Bodies that meet are one; such that do not are refused, and so are large cavities.
-RepairedMesh only_body(const catalog::TriangleMesh& scanned, CleanedScan scan, const RepairOptions& options) {
+RepairedMesh only_body(CleanedScan scan, const RepairOptions& options) {
   const OtherSurfaces others = other_surfaces(scan.repair.mesh);
-  if (others.bodies == 1 && others.cavities == 0)
-    return with_deviation(scanned, repaired_surface(std::move(scan), options));
+  if (others.bodies == 1 && others.cavities == 0) return largest_alone(std::move(scan), options);
   if (others.bodies == 1 || !others.do_meet) return refused_others(others);
   RepairedMesh joined = joined_bodies(std::move(scan), options);
   const auto count = std::find_if(joined.checks.begin(), joined.checks.end(),
@@ -108,10 +116,10 @@ RepairedMesh only_body(const catalog::TriangleMesh& scanned, CleanedScan scan, c
 }
 
 /// All bodies, or the largest; where that cannot be done, the largest surface if it stands for the scan.
-RepairedMesh chosen_bodies(const catalog::TriangleMesh& scanned, CleanedScan scan, const RepairOptions& options) {
+RepairedMesh chosen_bodies(CleanedScan scan, const RepairOptions& options) {
   RepairedMesh joined = joined_bodies(scan, options);
   if (joined.refusal.empty() || largest_surface(scan.repair.mesh).area_share < kLeastKeptShare) return joined;
-  RepairedMesh alone = with_deviation(scanned, repaired_surface(std::move(scan), options));
+  RepairedMesh alone = largest_alone(std::move(scan), options);
   if (!alone.refusal.empty()) return joined;
   alone.checks.push_back({kJoinedBodies, false, 0, joined.refusal + "; the largest surface alone taken"});
   return alone;
@@ -121,8 +129,8 @@ RepairedMesh chosen_bodies(const catalog::TriangleMesh& scanned, CleanedScan sca
 
 RepairedMesh repair_mesh(const catalog::TriangleMesh& scanned, const RepairOptions& options) {
   CleanedScan scan = cleaned_scan(scanned);
-  return options.bodies == catalog::SeparateBodies::refuse ? only_body(scanned, std::move(scan), options)
-                                                           : chosen_bodies(scanned, std::move(scan), options);
+  return options.bodies == catalog::SeparateBodies::refuse ? only_body(std::move(scan), options)
+                                                           : chosen_bodies(std::move(scan), options);
 }
 
 }  // namespace shape_pipeline

@@ -28,6 +28,13 @@ std::size_t drop_specks(std::vector<SurfacePiece>& pieces) {
   return specks <= kSpecksTogether * area ? std::erase_if(pieces, is_speck) : 0;
 }
 
+/// All but as many as may be looked at.
+void drop_smallest(std::vector<SurfacePiece>& pieces) {
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const SurfacePiece& a, const SurfacePiece& b) { return a.area > b.area; });
+  if (pieces.size() > kMostSurfaces) pieces.resize(kMostSurfaces);
+}
+
 /// The body of largest area with its cavities; roles are found.
 std::size_t drop_other_bodies(std::vector<SurfacePiece>& pieces) {
   std::size_t largest = 0;
@@ -131,9 +138,13 @@ RepairedMesh joined_bodies(CleanedScan scan, const RepairOptions& options) {
   Repair& repair = scan.repair;
   std::vector<SurfacePiece> pieces = surface_pieces(repair.mesh);
   repair.count("dropped_surfaces", drop_specks(pieces), "specks of less than a thousandth of the area dropped");
-  if (pieces.size() > kMostSurfaces)
-    return refused("the mesh has " + std::to_string(pieces.size()) + " separate surfaces, expected at most " +
-                   std::to_string(kMostSurfaces));
+  if (options.bodies == catalog::SeparateBodies::largest) drop_smallest(pieces);
+  if (pieces.size() > kMostSurfaces) {
+    RepairedMesh many = refused("the mesh has " + std::to_string(pieces.size()) +
+                                " separate surfaces, expected at most " + std::to_string(kMostSurfaces));
+    many.remedy = "take the scraps out of the scan, or keep the largest body alone with --bodies largest";
+    return many;
+  }
   repair.count("turned_surfaces", find_roles(pieces), "surfaces that were inside out turned round");
   if (options.bodies == catalog::SeparateBodies::largest)
     repair.count("dropped_bodies", drop_other_bodies(pieces), "surfaces of other bodies than the largest dropped");

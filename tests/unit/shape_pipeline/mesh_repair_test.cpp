@@ -332,6 +332,7 @@ TEST(SeveralBodies, ManyOfOneSizeAreNoSpecks) {
   for (int i = 0; i < 1100; ++i) many = joined(many, box_mesh({2.0 * i, 0, 0}, {2.0 * i + 1, 1, 1}));
   EXPECT_NE(with_bodies(many, catalog::SeparateBodies::join).refusal.find("at most 1000"), std::string::npos);
   EXPECT_NE(with_bodies(many, catalog::SeparateBodies::refuse).refusal.find("1100 separate"), std::string::npos);
+  expect_solid(with_bodies(many, catalog::SeparateBodies::largest), 1, 1e-9);
 }
 
 TEST(SeveralBodies, AFlatSheetBesideABodyIsRefused) {
