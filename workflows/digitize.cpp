@@ -167,6 +167,7 @@ void print_json(const std::vector<DigitizedScan>& outcomes) {
     if (outcome.is_bad()) {
       row["reason"] = outcome.reason;
     } else {
+      row["grade"] = outcome.summary.grade;
       row["descriptors"] = outcome.summary.descriptors;
       row["failed_checks"] = outcome.summary.failed_checks;
     }
@@ -175,8 +176,8 @@ void print_json(const std::vector<DigitizedScan>& outcomes) {
 }
 
 void print_table(const std::vector<DigitizedScan>& outcomes) {
-  std::printf("%-28s %-8s %12s %12s %10s %7s %10s %9s  %s\n", "name", "status", "volume[m3]", "area[m2]", "sieve[m]",
-              "faces", "sphericity", "convexity", "checks not passed");
+  std::printf("%-28s %-8s %5s %12s %12s %10s %7s %10s %9s  %s\n", "name", "status", "grade", "volume[m3]", "area[m2]",
+              "sieve[m]", "faces", "sphericity", "convexity", "checks not passed");
   for (const DigitizedScan& outcome : outcomes) {
     if (outcome.is_bad()) {
       std::printf("%-28s %-8s\n", outcome.name.c_str(), outcome.status.c_str());
@@ -188,10 +189,10 @@ void print_table(const std::vector<DigitizedScan>& outcomes) {
     };
     std::string failed;
     for (const std::string& check : outcome.summary.failed_checks) failed += (failed.empty() ? "" : ", ") + check;
-    std::printf("%-28s %-8s %12.5g %12.5g %10.4g %7zu %10.4f %9.4f  %s\n", outcome.name.c_str(), outcome.status.c_str(),
-                outcome.summary.volume, value("surface_area"), value("sieve_size_second_axis"),
-                outcome.summary.face_count, value("sphericity_wadell"), value("convexity_volume_ratio"),
-                failed.empty() ? "-" : failed.c_str());
+    std::printf("%-28s %-8s %5d %12.5g %12.5g %10.4g %7zu %10.4f %9.4f  %s\n", outcome.name.c_str(),
+                outcome.status.c_str(), outcome.summary.grade, outcome.summary.volume, value("surface_area"),
+                value("sieve_size_second_axis"), outcome.summary.face_count, value("sphericity_wadell"),
+                value("convexity_volume_ratio"), failed.empty() ? "-" : failed.c_str());
   }
 }
 

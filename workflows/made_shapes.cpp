@@ -51,6 +51,7 @@ int report_made_shapes(const std::string& stage, const std::vector<MadeShape>& s
     if (is_json) {
       const nlohmann::ordered_json row{{"name", shape.name},
                                        {"status", shape.status},
+                                       {"grade", shape.summary.grade},
                                        {"descriptors", shape.summary.descriptors},
                                        {"failed_checks", shape.summary.failed_checks}};
       std::printf("%s\n", row.dump().c_str());
