@@ -11,6 +11,7 @@
 #include "shape_pipeline/registration.h"
 #include "shape_pipeline/scan_file.h"
 #include "workflows/batch_refusal.h"
+#include "workflows/grain_series.h"
 #include "workflows/text_format.h"
 
 namespace workflows {
@@ -20,6 +21,7 @@ namespace fs = std::filesystem;
 using shape_pipeline::PartialScan;
 using shape_pipeline::PointCloud;
 
+constexpr int kGrainDigits = 2;
 constexpr char kGrainsCheck[] = "plate_grains";  // its figure: the grains that the cloud was separated into
 
 std::string options_text(const ScanSettings& settings, const CloudSettings& cloud) {
@@ -66,7 +68,7 @@ void CloudBatch::run() {
   for (const Job& job : jobs_) {
     progress_.step(job.name);
     const std::string reason = refusal_of(job.files.front().string(), [&] { digitize(job); });
-    if (!reason.empty()) reject(job, job.name, "", reason);
+    if (!reason.empty()) reject(job, job.name, hash_if_readable(job.files), reason);
   }
   progress_.finish();
 }
@@ -109,22 +111,27 @@ void CloudBatch::digitize(const Job& job) {
                                        options_text(options_.settings, settings_)};
   if (is_done(job, provenance)) return;
   const Grain whole = merged(job);
-  if (!settings_.is_separated) return store(job, job.name, provenance, whole);
+  const GrainSeries series{job.name, kGrainDigits};
+  if (!settings_.is_separated) {
+    remove_stale_grains(catalog_, series, 0, provenance, progress_);
+    return store(job, job.name, provenance, whole);
+  }
 
   const auto found = shape_pipeline::separated_grains(whole.cloud, static_cast<std::size_t>(settings_.grain_points));
   if (found.grains.empty() && found.small.empty())
     throw catalog::InputError(job.files.front().string() + ": holds no grain; scan more points");
+  remove_stale_grains(catalog_, series, found.grains.size(), provenance, progress_);
   catalog_.forget_rejected(job.name);
   std::size_t number = 0;
   for (const PointCloud& cloud : found.grains) {
     Grain grain{cloud, whole.checks};
     grain.checks.push_back({kGrainsCheck, true, static_cast<double>(found.grains.size()), "grains of this cloud"});
     grain.checks.push_back({"grain_gap", true, found.gap, "distance that separates two grains [m]"});
-    store(job, job.name + formatted("_%02zu", ++number), provenance, grain);
+    store(job, series.name(++number), provenance, grain);
   }
   for (const std::size_t points : found.small) {
     ++number;
-    reject(job, job.name + formatted("_%02zu", number), provenance.source_sha256,
+    reject(job, series.name(number), provenance.source_sha256,
            job.files.front().string() +
                formatted(": grain %zu has %zu points, expected at least %d", number, points, settings_.grain_points) +
                "; scan it with more points or lower --grain-points");
@@ -136,7 +143,7 @@ bool CloudBatch::is_done(const Job& job, const catalog::Provenance& provenance) 
   std::vector<DigitizedScan> known;
   std::size_t expected = 1;
   for (std::size_t g = 1; g <= expected; ++g) {
-    const std::string name = settings_.is_separated ? job.name + formatted("_%02zu", g) : job.name;
+    const std::string name = settings_.is_separated ? GrainSeries{job.name, kGrainDigits}.name(g) : job.name;
     const auto id = catalog_.find(name);
     if (!id) return false;
     const catalog::ShapeRecord shape = catalog_.shape(*id);

@@ -43,9 +43,9 @@ TEST(Grade, IsStoredAndSelects) {
   const test_support::TemporaryFolder folder;
   ShapeCatalog catalog(folder / "ore.talus", ShapeCatalog::Access::read_write);
   ShapeRecord shape = test_support::sample_shape("rock");
-  for (const auto& [name, checks] : {std::pair("good", Checks{passed("closed")}),
-                                     std::pair("fair", Checks{failed("given_normals")}),
-                                     std::pair("poor", Checks{failed("closed")})}) {
+  for (const auto& [name, checks] :
+       {std::pair("good", Checks{passed("closed")}), std::pair("fair", Checks{failed("given_normals")}),
+        std::pair("poor", Checks{failed("closed")})}) {
     shape.name = name;
     shape.checks = checks;
     catalog.store_shape(shape);
