@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "catalog/input_error.h"
@@ -99,6 +100,12 @@ CloudBatch::Grain CloudBatch::merged(const Job& job) const {
   whole.cloud = std::move(registered.merged);
   whole.checks.insert(whole.checks.end(), registered.checks.begin(), registered.checks.end());
   return whole;
+}
+
+PointCloud CloudBatch::source_cloud(const fs::path& file) const {
+  for (const Job& job : jobs_)
+    if (job.files.front() == file) return merged(job).cloud;
+  throw std::invalid_argument(file.string() + ": is no source of this batch");
 }
 
 void CloudBatch::digitize(const Job& job) {

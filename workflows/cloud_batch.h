@@ -31,7 +31,12 @@ class CloudBatch {
   CloudBatch(const DigitizeBatchOptions& options, const CloudSettings& settings);
   void run();
 
+  const DigitizeBatchOptions& options() const { return options_; }
   const std::vector<DigitizedScan>& outcomes() const { return outcomes_; }
+
+  /// The points that the grains of a source were made from: registered, cleared of floors. `file`: its first one.
+  /// Throws InputError as run() rejects.
+  shape_pipeline::PointCloud source_cloud(const std::filesystem::path& file) const;
 
  private:
   /// Files that become one cloud.

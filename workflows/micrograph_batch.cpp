@@ -170,7 +170,7 @@ void MicrographBatch::run() {
 }
 
 void MicrographBatch::digitize(const fs::path& image) {
-  const Micrograph micrograph = digitize_micrograph(image, image_options_);
+  Micrograph micrograph = digitize_micrograph(image, image_options_);
   const std::string stem = image.stem().string();
   if (!is_plain_name(stem)) throw catalog::InputError(image.string() + ": " + kPlainName);
   write_whole(settings_.out / (stem + ".csv"), outline_table(stem, micrograph));
@@ -185,6 +185,7 @@ void MicrographBatch::digitize(const fs::path& image) {
   read_.push_back(image);
   if (catalog_) catalog_->forget_rejected(stem);
   progress_.note(summary_text(image.filename().string(), micrograph));
+  micrographs_.push_back({image, std::move(micrograph)});
 }
 
 void MicrographBatch::store_population() {

@@ -144,7 +144,7 @@ void StackBatch::digitize(const fs::path& stack) {
   const catalog::Provenance provenance{without_slash(stack).filename().string(),
                                        hash_of_files(shape_pipeline::stack_sources(stack)), tool_version(),
                                        options_text(options_, settings_)};
-  if (is_done(name, provenance)) return;
+  if (is_done(stack, provenance)) return;
   std::vector<shape_pipeline::StackGrain> grains;  // their number, which the first already tells, is known at the end
   const shape_pipeline::StackSummary summary = shape_pipeline::digitize_stack(
       stack, stack_options_, [&](shape_pipeline::StackGrain&& grain) { grains.push_back(std::move(grain)); });
@@ -159,8 +159,8 @@ void StackBatch::digitize(const fs::path& stack) {
 }
 
 /// Grains are stored from the largest down, and those refused come last.
-bool StackBatch::is_done(const std::string& name, const catalog::Provenance& provenance) {
-  const GrainSeries series{name};
+bool StackBatch::is_done(const fs::path& stack, const catalog::Provenance& provenance) {
+  const GrainSeries series{stack_name(stack)};
   std::vector<DigitizedScan> found;
   std::size_t expected = 1;
   for (std::size_t g = 1; g <= expected; ++g) {
@@ -170,7 +170,7 @@ bool StackBatch::is_done(const std::string& name, const catalog::Provenance& pro
     if (!have_one_source(shape.provenance, provenance)) return false;
     for (const catalog::Check& check : shape.checks)
       if (check.name == kSizeCheck) expected = static_cast<std::size_t>(check.figure);
-    found.push_back({provenance.source_file, series.name(g), "skipped", "", catalog_.summary(*id)});
+    found.push_back({stack, series.name(g), "skipped", "", catalog_.summary(*id)});
   }
   outcomes_.insert(outcomes_.end(), found.begin(), found.end());
   return true;

@@ -99,6 +99,31 @@ cv::Mat in_bytes(const GreyImage& image) {
   return bytes;
 }
 
+cv::Mat drawn_lines(const GreyImage& image, const std::vector<ColourLine>& lines, double scale) {
+  cv::Mat picture;
+  cv::cvtColor(in_bytes(image), picture, cv::COLOR_GRAY2BGR);
+  const cv::Size size(std::max(1, static_cast<int>(std::lround(image.width * scale))),
+                      std::max(1, static_cast<int>(std::lround(image.height * scale))));
+  cv::resize(picture, picture, size, 0, 0, scale < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
+  constexpr int kFraction = 4;  // bits below a pixel
+  for (const ColourLine& line : lines) {
+    std::vector<cv::Point> points;
+    for (const auto& [x, y] : line.points)
+      points.emplace_back(static_cast<int>(std::lround((x * scale - 0.5) * (1 << kFraction))),
+                          static_cast<int>(std::lround((y * scale - 0.5) * (1 << kFraction))));
+    cv::polylines(picture, std::vector<std::vector<cv::Point>>{points}, line.is_closed,
+                  cv::Scalar(line.colour[2], line.colour[1], line.colour[0]), 1, cv::LINE_AA, kFraction);
+  }
+  return picture;
+}
+
+ColourImage colour_image(const cv::Mat& picture) {
+  ColourImage image(picture.cols, picture.rows, {});
+  cv::Mat target(picture.rows, picture.cols, CV_8UC3, image.pixels.data());
+  cv::cvtColor(picture, target, cv::COLOR_BGR2RGB);
+  return image;
+}
+
 }  // namespace
 
 GreyImage read_image(const fs::path& path) {
@@ -119,21 +144,22 @@ GreyImage read_image(const fs::path& path) {
 
 void write_image(const fs::path& path, const GreyImage& image) { write_png(path, in_bytes(image)); }
 
+ColourImage picture_of(const GreyImage& image, const std::vector<ColourLine>& lines, double scale) {
+  return colour_image(drawn_lines(image, lines, scale));
+}
+
 void write_picture(const fs::path& path, const GreyImage& image, const std::vector<ColourLine>& lines) {
-  cv::Mat picture;
-  cv::cvtColor(in_bytes(image), picture, cv::COLOR_GRAY2BGR);
-  const int scale = 2 * std::max(image.width, image.height) <= kLargestPicture ? 2 : 1;
-  cv::resize(picture, picture, {}, scale, scale, cv::INTER_CUBIC);
-  constexpr int kFraction = 4;  // bits below a pixel
-  for (const ColourLine& line : lines) {
-    std::vector<cv::Point> points;
-    for (const auto& [x, y] : line.points)
-      points.emplace_back(static_cast<int>(std::lround((x * scale - 0.5) * (1 << kFraction))),
-                          static_cast<int>(std::lround((y * scale - 0.5) * (1 << kFraction))));
-    cv::polylines(picture, std::vector<std::vector<cv::Point>>{points}, line.is_closed,
-                  cv::Scalar(line.colour[2], line.colour[1], line.colour[0]), 1, cv::LINE_AA, kFraction);
-  }
-  write_png(path, picture);
+  const double scale = 2 * std::max(image.width, image.height) <= kLargestPicture ? 2 : 1;
+  write_png(path, drawn_lines(image, lines, scale));
+}
+
+std::string encoded_png(const ColourImage& image) {
+  const cv::Mat picture(image.height, image.width, CV_8UC3, const_cast<Colour*>(image.pixels.data()));
+  cv::Mat swapped;
+  cv::cvtColor(picture, swapped, cv::COLOR_RGB2BGR);
+  std::vector<std::uint8_t> encoded;
+  cv::imencode(".png", swapped, encoded, {cv::IMWRITE_PNG_COMPRESSION, 9});
+  return {encoded.begin(), encoded.end()};
 }
 
 }  // namespace shape_pipeline
