@@ -45,14 +45,14 @@ struct SourceEntry {
 /// One grain, or what was rejected in its place.
 struct GrainEntry {
   std::string name;
-  std::string refusal;                   // why there is no shape; empty if there is one
-  int grade = 0;                         // see catalog::grade_of()
-  catalog::ShapeRecord shape;            // its mesh is not looked at
+  std::string refusal;         // why there is no shape; empty if there is one
+  int grade = 0;               // see catalog::grade_of()
+  catalog::ShapeRecord shape;  // its mesh is not looked at
   std::size_t face_count = 0;
-  std::optional<PageColour> colour;      // that the grain has in the pictures of its source
+  std::optional<PageColour> colour;  // that the grain has in the pictures of its source
   std::vector<PagePicture> pictures;
-  std::optional<ColourScale> scale;      // of the last picture
-  std::vector<std::string> notes;        // such as why a picture is missing
+  std::optional<ColourScale> scale;  // of the last picture
+  std::vector<std::string> notes;    // such as why a picture is missing
 };
 
 struct DigitizingReport {

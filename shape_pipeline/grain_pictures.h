@@ -17,11 +17,11 @@ struct GrainView {
   int side = 320;     // of each of the two views [pixels]
 };
 
-/// The view that holds all points.
-GrainView view_of(const std::vector<catalog::Point>& points, int side);
+/// The view that holds all points, or `share` of them where some may be strays.
+GrainView view_of(const std::vector<catalog::Point>& points, int side, double share = 1);
 
-/// Drawn without a display by a depth buffer: the same pixels on any machine. Faces in a grain's colour; those seen from
-/// behind, through holes or because they are turned inwards, orange.
+/// Drawn without a display by a depth buffer: the same pixels on any machine. Faces in a grain's colour; those seen
+/// from behind, through holes or because they are turned inwards, orange.
 ColourImage drawn_surface(const catalog::TriangleMesh& mesh, const GrainView& view);
 
 /// Points as dots, the far ones paler.

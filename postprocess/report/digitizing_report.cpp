@@ -66,9 +66,7 @@ double descriptor(const GrainEntry& grain, const char* name) {
   return found == grain.shape.descriptors.end() ? std::nan("") : found->second;
 }
 
-std::string number(double value, int digits = kDigits) {
-  return std::isnan(value) ? "-" : short_number(value, digits);
-}
+std::string number(double value, int digits = kDigits) { return std::isnan(value) ? "-" : short_number(value, digits); }
 
 std::string failed_names(const GrainEntry& grain) {
   std::string names;
@@ -119,10 +117,11 @@ std::string overview(const DigitizingReport& report) {
 // ---- One grain
 
 std::string checks_html(const GrainEntry& grain) {
-  std::string rows = "<table>\n<tr><th>check</th><th>result</th><th class=\"number\">figure</th><th>meaning</th></tr>\n";
+  std::string rows =
+      "<table>\n<tr><th>check</th><th>result</th><th class=\"number\">figure</th><th>meaning</th></tr>\n";
   for (const catalog::Check& check : grain.shape.checks)
-    rows += "<tr><td>" + escaped(check.name) + "</td><td class=\"verdict " + (check.passed ? "met" : "missed") +
-            "\">" + (check.passed ? "passed" : "not passed") + "</td><td class=\"number\">" + number(check.figure) +
+    rows += "<tr><td>" + escaped(check.name) + "</td><td class=\"verdict " + (check.passed ? "met" : "missed") + "\">" +
+            (check.passed ? "passed" : "not passed") + "</td><td class=\"number\">" + number(check.figure) +
             "</td><td>" + escaped(check.detail) + "</td></tr>\n";
   return rows + "</table>\n";
 }

@@ -36,8 +36,7 @@ ColourImage shrunk(const ColourImage& image, int factor) {
       for (int j = 0; j < factor; ++j)
         for (int i = 0; i < factor; ++i)
           for (std::size_t c = 0; c < 3; ++c) sum[c] += image(x * factor + i, y * factor + j)[c];
-      for (std::size_t c = 0; c < 3; ++c)
-        small(x, y)[c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
+      for (std::size_t c = 0; c < 3; ++c) small(x, y)[c] = static_cast<std::uint8_t>((sum[c] + count / 2) / count);
     }
   return small;
 }

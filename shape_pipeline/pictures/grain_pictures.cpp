@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 
 #include "shape_pipeline/surfaces/vector3.h"
 
@@ -14,11 +15,12 @@ namespace {
 
 constexpr Colour kBackground{255, 255, 255}, kStone{203, 191, 168}, kInside{226, 122, 58}, kNoValue{158, 158, 158};
 constexpr Colour kNear{28, 62, 104}, kFar{188, 204, 220};
-constexpr int kSupersampling = 2;   // drawn this many times larger and averaged: smooth edges
-constexpr double kMargin = 1.04;    // of the ball that is shown
+constexpr int kSupersampling = 2;                      // drawn this many times larger and averaged: smooth edges
+constexpr double kMargin = 1.04;                       // of the ball that is shown
 constexpr double kAmbient = 0.25, kMapAmbient = 0.65;  // share of a colour that shows whatever the light
 constexpr double kKeyLight = 0.6;                      // share of the rest that comes from the upper left
-constexpr double kDotCoverage = 1;  // dots of this many times the mean distance of points, had they the whole picture
+constexpr double kDotRadius = 0.4;  // over the mean distance of the points that a ball would show on one side
+constexpr double kLargestDot = 8;   // radius [pixels of the canvas]
 
 /// A camera without perspective: columns along `right`, rows against `up`, depth growing towards the eye.
 struct Camera {
@@ -60,8 +62,8 @@ class Canvas {
 
   void put(int x, int y, double depth, const Colour& colour) {
     if (x < 0 || y < 0 || x >= image_.width || y >= image_.height) return;
-    double& nearest = depths_[static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) +
-                              static_cast<std::size_t>(x)];
+    double& nearest =
+        depths_[static_cast<std::size_t>(y) * static_cast<std::size_t>(image_.width) + static_cast<std::size_t>(x)];
     if (depth <= nearest) return;
     nearest = depth;
     image_(x, y) = colour;
@@ -92,8 +94,8 @@ class Canvas {
     const Point source =
         normalized(add(add(scaled(camera_.right, -0.5), scaled(camera_.up, 0.7)), scaled(camera_.towards_eye, 0.5)));
     const double facing = dot(normal, camera_.towards_eye), side = facing < 0 ? -1 : 1;
-    return ambient + (1 - ambient) * (kKeyLight * std::max(0.0, side * dot(normal, source)) +
-                                      (1 - kKeyLight) * std::abs(facing));
+    return ambient +
+           (1 - ambient) * (kKeyLight * std::max(0.0, side * dot(normal, source)) + (1 - kKeyLight) * std::abs(facing));
   }
   bool is_seen_from_behind(const Point& normal) const { return dot(normal, camera_.towards_eye) < 0; }
   ColourImage finished() const { return shrunk(image_, kSupersampling); }
@@ -140,31 +142,38 @@ void draw_faces(Canvas& canvas, const catalog::TriangleMesh& mesh,
 
 }  // namespace
 
-GrainView view_of(const std::vector<Point>& points, int side) {
+GrainView view_of(const std::vector<Point>& points, int side, double share) {
   GrainView view;
   view.side = side;
   if (points.empty()) return view;
-  Point low = points.front(), high = low;
-  for (const Point& p : points)
-    for (std::size_t i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], p[i]);
-      high[i] = std::max(high[i], p[i]);
-    }
-  view.centre = scaled(add(low, high), 0.5);
-  for (const Point& p : points) view.radius = std::max(view.radius, distance(p, view.centre));
+  const auto cut = static_cast<std::ptrdiff_t>(0.5 * (1 - share) * static_cast<double>(points.size()));
+  std::vector<double> values(points.size());
+  const auto ranked = [&](std::ptrdiff_t rank) {
+    std::nth_element(values.begin(), values.begin() + rank, values.end());
+    return values[static_cast<std::size_t>(rank)];
+  };
+  const auto last = static_cast<std::ptrdiff_t>(points.size()) - 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::transform(points.begin(), points.end(), values.begin(), [&](const Point& p) { return p[i]; });
+    view.centre[i] = 0.5 * (ranked(cut) + ranked(last - cut));
+  }
+  std::transform(points.begin(), points.end(), values.begin(),
+                 [&](const Point& p) { return distance(p, view.centre); });
+  view.radius = ranked(last - cut);
   return view;
 }
 
 ColourImage drawn_surface(const catalog::TriangleMesh& mesh, const GrainView& view) {
   return both_sides(view, [&](Canvas& canvas) {
-    draw_faces(canvas, mesh, [](const catalog::Triangle&, const std::array<double, 3>&) { return kStone; }, true, kAmbient);
+    draw_faces(
+        canvas, mesh, [](const catalog::Triangle&, const std::array<double, 3>&) { return kStone; }, true, kAmbient);
   });
 }
 
 ColourImage drawn_points(const std::vector<Point>& points, const GrainView& view) {
-  const double area = 4.0 * kSupersampling * kSupersampling * view.side * view.side;
-  const double wanted = kDotCoverage * std::sqrt(area / std::max<double>(1, static_cast<double>(points.size()))) / 4;
-  const int reach = static_cast<int>(std::clamp(wanted, 1.0, 4.0));
+  const double radius = 0.5 * kSupersampling * view.side, shown = 0.5 * static_cast<double>(points.size()) + 1;
+  const double spacing = radius * std::sqrt(std::numbers::pi / shown);
+  const int reach = static_cast<int>(std::clamp(kDotRadius * spacing, 1.0, kLargestDot));
   return both_sides(view, [&](Canvas& canvas) {
     for (const Point& point : points) {
       const Pixel middle = canvas.seen(point);

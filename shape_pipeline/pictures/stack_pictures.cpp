@@ -48,7 +48,8 @@ PixelGrid pixel_grid(const VoxelGrid& voxels, const StackSection& section) {
   std::array<double, 2> extent;
   const std::array<std::size_t, 2> directions{grid.axes.right, grid.axes.down};
   for (std::size_t k = 0; k < 2; ++k)
-    extent[k] = section.half_width > 0 ? 2 * section.half_width : voxels.size[directions[k]] * voxels.spacing[directions[k]];
+    extent[k] =
+        section.half_width > 0 ? 2 * section.half_width : voxels.size[directions[k]] * voxels.spacing[directions[k]];
   grid.pixel = std::max(extent[0], extent[1]) / section.side;
   grid.width = std::max(1, static_cast<int>(std::lround(extent[0] / grid.pixel)));
   grid.height = std::max(1, static_cast<int>(std::lround(extent[1] / grid.pixel)));
@@ -73,8 +74,8 @@ std::vector<std::vector<double>> crossings(const catalog::TriangleMesh& mesh, co
     if (cut.size() != 2) continue;
     const auto [low, high] = std::minmax({cut[0][1], cut[1][1]});
     for (int y = std::max(0, static_cast<int>(std::ceil(low))); y < grid.height && y < high; ++y)
-      rows[static_cast<std::size_t>(y)].push_back(cut[0][0] + (y - cut[0][1]) / (cut[1][1] - cut[0][1]) *
-                                                                  (cut[1][0] - cut[0][0]));
+      rows[static_cast<std::size_t>(y)].push_back(cut[0][0] +
+                                                  (y - cut[0][1]) / (cut[1][1] - cut[0][1]) * (cut[1][0] - cut[0][0]));
   }
   for (std::vector<double>& row : rows) std::sort(row.begin(), row.end());
   return rows;

@@ -14,10 +14,10 @@ namespace fs = std::filesystem;
 using catalog::ShapeCatalog;
 using shape_pipeline::DeviationMap;
 
-constexpr std::size_t kMostDrawn = 100;              // pictures of a hundred grains take about 10 MB
-constexpr std::size_t kFew = 12;                     // so many are drawn large
-constexpr int kLargeSide = 300, kSmallSide = 200;    // [pixels]
-constexpr double kLeastRange = 1e-6;                 // of a map / diagonal: below is rounding
+constexpr std::size_t kMostDrawn = 100;            // pictures of a hundred grains take about 10 MB
+constexpr std::size_t kFew = 12;                   // so many are drawn large
+constexpr int kLargeSide = 300, kSmallSide = 200;  // [pixels]
+constexpr double kLeastRange = 1e-6;               // of a map / diagonal: below is rounding
 
 struct LengthUnit {
   double metres;
@@ -88,10 +88,9 @@ void GrainPages::add_input(Grain& grain, const shape_pipeline::ColourImage& pict
 
 void GrainPages::add_result(Grain& grain) {
   const catalog::TriangleMesh& mesh = grain.entry.shape.mesh;
-  grain.entry.pictures.push_back(
-      page_picture(drawn_surface(mesh, grain.view), "result from two opposite sides: " +
-                                                        std::to_string(mesh.face_count()) + " faces, diagonal " +
-                                                        length_text(diagonal_of(mesh))));
+  grain.entry.pictures.push_back(page_picture(drawn_surface(mesh, grain.view),
+                                              "result from two opposite sides: " + std::to_string(mesh.face_count()) +
+                                                  " faces, diagonal " + length_text(diagonal_of(mesh))));
 }
 
 void GrainPages::add_map(Grain& grain, const DeviationMap& map) {
@@ -115,8 +114,8 @@ void GrainPages::add_map(Grain& grain, const DeviationMap& map) {
       length_text(map.all.mean).c_str(), 100 * map.all.mean / diagonal, length_text(map.all.percentile_95).c_str(),
       length_text(map.all.largest).c_str());
   if (map.share_without > 0)
-    scale.meaning += formatted("; grey where the source has nothing near (%.1f %% of the vertices)",
-                               100 * map.share_without);
+    scale.meaning +=
+        formatted("; grey where the source has nothing near (%.1f %% of the vertices)", 100 * map.share_without);
   grain.entry.scale = std::move(scale);
   grain.entry.pictures.push_back(page_picture(drawn_map(mesh, map.values, range, grain.view), "deviation map"));
 }

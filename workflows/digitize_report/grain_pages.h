@@ -12,8 +12,8 @@
 
 namespace workflows {
 
-/// Puts together the grains of a page. Pictures are made of the first hundred outcomes only, so that the page opens in a
-/// browser; the rest stands in its tables, with a notice.
+/// Puts together the grains of a page. Pictures are made of the first hundred outcomes only, so that the page opens in
+/// a browser; the rest stands in its tables, with a notice.
 class GrainPages {
  public:
   /// Of the outcomes of a batch, which stay where they are.

@@ -93,17 +93,17 @@ LinePlot distribution(const Micrograph& micrograph, const char* name, const char
 postprocess::SourceEntry micrograph_entry(const fs::path& image, const Micrograph& micrograph) {
   postprocess::SourceEntry source;
   source.name = image.filename().string();
-  source.pictures.push_back(page_picture(
-      overlay(image, micrograph, kOverlaySide),
-      formatted("outlines over the image: %d x %d pixels of ", micrograph.width, micrograph.height) +
-          length_text(micrograph.pixel_size)));
+  source.pictures.push_back(
+      page_picture(overlay(image, micrograph, kOverlaySide),
+                   formatted("outlines over the image: %d x %d pixels of ", micrograph.width, micrograph.height) +
+                       length_text(micrograph.pixel_size)));
   source.tables = {count_table(micrograph), figure_table(micrograph)};
-  source.plots = {distribution(micrograph, "equivalent_diameter_area", "Size", "diameter of equal area [um]", 1e6),
-                  distribution(micrograph, "ellipse_ratio_minor_over_major_iso", "Aspect ratio",
-                               "minor / major axis of the ellipse [-]", 1),
-                  distribution(micrograph, "circularity_4pi_area_over_perimeter2_imagej", "Circularity",
-                               "4 pi A / P2 [-]", 1),
-                  distribution(micrograph, "roundness_wadell_zheng_hryciw", "Roundness (Wadell)", "roundness [-]", 1)};
+  source.plots = {
+      distribution(micrograph, "equivalent_diameter_area", "Size", "diameter of equal area [um]", 1e6),
+      distribution(micrograph, "ellipse_ratio_minor_over_major_iso", "Aspect ratio",
+                   "minor / major axis of the ellipse [-]", 1),
+      distribution(micrograph, "circularity_4pi_area_over_perimeter2_imagej", "Circularity", "4 pi A / P2 [-]", 1),
+      distribution(micrograph, "roundness_wadell_zheng_hryciw", "Roundness (Wadell)", "roundness [-]", 1)};
   return source;
 }
 
@@ -112,7 +112,8 @@ postprocess::SourceEntry micrograph_entry(const fs::path& image, const Micrograp
 postprocess::DigitizingReport report_of(const MicrographBatch& batch) {
   GrainPages pages(batch.options().catalog_path, batch.outcomes());
   std::vector<postprocess::SourceEntry> sources;
-  for (const ReadMicrograph& read : batch.micrographs()) sources.push_back(micrograph_entry(read.image, read.micrograph));
+  for (const ReadMicrograph& read : batch.micrographs())
+    sources.push_back(micrograph_entry(read.image, read.micrograph));
   for (GrainPages::Grain& grain : pages.grains()) {
     if (!grain.is_drawn) continue;
     if (grain.has_shape()) {
@@ -123,8 +124,9 @@ postprocess::DigitizingReport report_of(const MicrographBatch& batch) {
       continue;
     }
     const fs::path& image = grain.outcome->scan;
-    const std::string reason = refusal_of(
-        image.string(), [&] { GrainPages::add_input(grain, shape_pipeline::overlay(image, {}, kOverlaySide), "input"); });
+    const std::string reason = refusal_of(image.string(), [&] {
+      GrainPages::add_input(grain, shape_pipeline::overlay(image, {}, kOverlaySide), "input");
+    });
     if (!reason.empty() && reason != grain.entry.refusal)
       grain.entry.notes.push_back("Its source cannot be drawn: " + reason);
   }
@@ -149,9 +151,8 @@ postprocess::DigitizingReport report_of(const TurntableBatch& batch) {
     }
     const std::string reason = refusal_of(grain.outcome->scan.string(), [&] {
       std::vector<ColourImage> views;
-      for (auto& picture : hull_pictures(
-               shape_pipeline::read_turntable(grain.outcome->scan, batch.pipeline_options()), axis, hull, kViews,
-               kViewSide))
+      for (auto& picture : hull_pictures(shape_pipeline::read_turntable(grain.outcome->scan, batch.pipeline_options()),
+                                         axis, hull, kViews, kViewSide))
         views.push_back(std::move(picture.image));
       if (!views.empty())
         GrainPages::add_input(grain, side_by_side(views, 4),

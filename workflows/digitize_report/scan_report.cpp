@@ -32,6 +32,13 @@ struct ScanInput {
   }
 };
 
+constexpr int kSourceSide = 480;         // [pixels]
+constexpr double kWithoutStrays = 0.98;  // of the points; strays would leave the rest small
+
+shape_pipeline::GrainView view_of_source(const std::vector<catalog::Point>& points, int side) {
+  return shape_pipeline::view_of(points, side, kWithoutStrays);
+}
+
 ScanInput scan_input(const fs::path& scan, const DigitizationOptions& options) {
   if (shape_pipeline::scan_kind(scan) == shape_pipeline::ScanKind::mesh) {
     catalog::TriangleMesh mesh = shape_pipeline::read_mesh(scan, options.metres_per_unit);
@@ -46,7 +53,7 @@ ScanInput scan_input(const fs::path& scan, const DigitizationOptions& options) {
 /// Input, result and map of a shape; the input alone, in its own frame, of what was rejected.
 void draw(GrainPages::Grain& grain, ScanInput input) {
   if (!grain.has_shape()) {
-    GrainPages::add_input(grain, input.drawn(shape_pipeline::view_of(input.points, grain.view.side)), input.caption());
+    GrainPages::add_input(grain, input.drawn(view_of_source(input.points, grain.view.side)), input.caption());
     return;
   }
   const catalog::ShapeRecord& shape = grain.entry.shape;
@@ -58,8 +65,9 @@ void draw(GrainPages::Grain& grain, ScanInput input) {
   }
   input.points = shape_pipeline::in_shape_frame(*shape.source_frame, std::move(input.points));
   GrainPages::add_input(grain, input.drawn(grain.view), input.caption());
-  GrainPages::add_map(grain, input.is_mesh() ? shape_pipeline::deviation_from_mesh(shape.mesh, {input.points, input.faces})
-                                             : shape_pipeline::deviation_from_points(shape.mesh, input.points));
+  GrainPages::add_map(grain, input.is_mesh()
+                                 ? shape_pipeline::deviation_from_mesh(shape.mesh, {input.points, input.faces})
+                                 : shape_pipeline::deviation_from_points(shape.mesh, input.points));
 }
 
 /// `input_of` reads what an outcome was made from.
@@ -67,8 +75,7 @@ void draw_all(GrainPages& pages, const std::function<ScanInput(const DigitizedSc
   for (GrainPages::Grain& grain : pages.grains()) {
     if (!grain.is_drawn || grain.outcome->status == "missing") continue;
     if (grain.has_shape()) GrainPages::add_result(grain);
-    const std::string reason =
-        refusal_of(grain.outcome->scan.string(), [&] { draw(grain, input_of(*grain.outcome)); });
+    const std::string reason = refusal_of(grain.outcome->scan.string(), [&] { draw(grain, input_of(*grain.outcome)); });
     if (!reason.empty() && reason != grain.entry.refusal)
       grain.entry.notes.push_back("Its source cannot be drawn: " + reason);
   }
@@ -95,9 +102,9 @@ postprocess::DigitizingReport report_of(const CloudBatch& batch) {
     postprocess::SourceEntry source;
     source.name = file.filename().string();
     const ScanInput input{cloud.points, {}};
-    source.pictures.push_back(page_picture(input.drawn(shape_pipeline::view_of(input.points, 480)),
-                                           "all that grains were made from, registered and cleared: " +
-                                               input.caption()));
+    source.pictures.push_back(
+        page_picture(input.drawn(view_of_source(input.points, kSourceSide)),
+                     "all that grains were made from, registered and cleared: " + input.caption()));
     sources.push_back(std::move(source));
   }
   return pages.finished(std::move(sources));

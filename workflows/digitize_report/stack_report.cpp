@@ -14,8 +14,8 @@ using shape_pipeline::ColouredGrain;
 using shape_pipeline::ColourImage;
 using shape_pipeline::StackPictures;
 
-constexpr int kSliceSide = 520;        // [pixels]
-constexpr double kWindow = 1.25;       // half width of a grain's section / its radius
+constexpr int kSliceSide = 520;   // [pixels]
+constexpr double kWindow = 1.25;  // half width of a grain's section / its radius
 constexpr const char* kDirections[] = {"x (to the right y, down z)", "y (to the right x, down z)",
                                        "z (to the right x, down y)"};
 
@@ -45,9 +45,9 @@ postprocess::SourceEntry stack_entry(const fs::path& path, const StackPictures& 
   postprocess::SourceEntry source;
   source.name = (path.has_filename() ? path : path.parent_path()).filename().string();
   for (const int axis : {0, 1, 2})
-    source.pictures.push_back(page_picture(
-        stack.section({axis, stack.middle(), 0, kSliceSide}, grains),
-        std::string("middle slice across ") + kDirections[axis] + ", grains in the colours of the table"));
+    source.pictures.push_back(
+        page_picture(stack.section({axis, stack.middle(), 0, kSliceSide}, grains),
+                     std::string("middle slice across ") + kDirections[axis] + ", grains in the colours of the table"));
   source.notes.push_back(
       "What is bright without a colour is no grain of the catalogue: cut by the border, a speck, or refused.");
   return source;
@@ -70,7 +70,8 @@ postprocess::DigitizingReport report_of(const StackBatch& batch) {
         continue;
       }
       ColouredGrain one{grain.entry.shape.mesh, shape_pipeline::numbered_colour(coloured.size())};
-      one.mesh.vertices = shape_pipeline::in_source_frame(*grain.entry.shape.source_frame, std::move(one.mesh.vertices));
+      one.mesh.vertices =
+          shape_pipeline::in_source_frame(*grain.entry.shape.source_frame, std::move(one.mesh.vertices));
       grain.entry.colour = one.colour;
       if (grain.is_drawn) drawn.push_back({&grain, coloured.size()});
       coloured.push_back(std::move(one));
