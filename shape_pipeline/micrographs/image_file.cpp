@@ -158,7 +158,7 @@ std::string encoded_png(const ColourImage& image) {
   cv::Mat swapped;
   cv::cvtColor(picture, swapped, cv::COLOR_RGB2BGR);
   std::vector<std::uint8_t> encoded;
-  cv::imencode(".png", swapped, encoded, {cv::IMWRITE_PNG_COMPRESSION, 9});
+  cv::imencode(".png", swapped, encoded, {cv::IMWRITE_PNG_COMPRESSION, 6});
   return {encoded.begin(), encoded.end()};
 }
 

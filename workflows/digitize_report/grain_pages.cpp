@@ -14,10 +14,18 @@ namespace fs = std::filesystem;
 using catalog::ShapeCatalog;
 using shape_pipeline::DeviationMap;
 
-constexpr std::size_t kMostDrawn = 100;            // pictures of a hundred grains take about 10 MB
-constexpr std::size_t kFew = 12;                   // so many are drawn large
-constexpr int kLargeSide = 300, kSmallSide = 200;  // [pixels]
-constexpr double kLeastRange = 1e-6;               // of a map / diagonal: below is rounding
+// Pictures of a hundred grains take about 15 MB.
+constexpr std::size_t kMostDrawn = 100;
+
+/// Of each picture of so many grains [pixels].
+int picture_side(std::size_t grains) {
+  if (grains <= 12) return 300;
+  return grains <= 40 ? 200 : 140;
+}
+
+constexpr double kLeastOfLargest = 0.1;  // so that what little was changed shows on a copy
+constexpr double kRounding = 1e-12;      // [m]
+constexpr double kLeastRange = 1e-6;     // of a map / diagonal: below is rounding
 
 struct LengthUnit {
   double metres;
@@ -52,6 +60,7 @@ double diagonal_of(const catalog::TriangleMesh& mesh) {
 }  // namespace
 
 std::string length_text(double metres) {
+  if (std::abs(metres) < kRounding) metres = 0;
   const LengthUnit unit = unit_for(metres);
   return postprocess::short_number(metres / unit.metres, 4) + " " + unit.name;
 }
@@ -64,7 +73,7 @@ GrainPages::GrainPages(const fs::path& catalog, const std::vector<DigitizedScan>
     : title_(catalog.filename().string()) {
   std::optional<ShapeCatalog> shapes;  // none where nothing was to be stored
   if (!catalog.empty() && fs::exists(catalog)) shapes.emplace(catalog, ShapeCatalog::Access::read_only);
-  const int side = outcomes.size() <= kFew ? kLargeSide : kSmallSide;
+  const int side = picture_side(outcomes.size());
   for (const DigitizedScan& outcome : outcomes) {
     Grain grain;
     grain.outcome = &outcome;
@@ -100,7 +109,8 @@ void GrainPages::add_map(Grain& grain, const DeviationMap& map) {
     grain.entry.notes.push_back("No map: nowhere is the source near the shape.");
     return;
   }
-  const double range = rounded_up(std::max(map.all.percentile_95, kLeastRange * diagonal));
+  const double range =
+      rounded_up(std::max({map.all.percentile_95, kLeastOfLargest * map.all.largest, kLeastRange * diagonal}));
   const LengthUnit unit = unit_for(range);
   postprocess::ColourScale scale;
   for (const double share : {-1.0, -0.5, 0.0, 0.5, 1.0})

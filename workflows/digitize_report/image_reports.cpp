@@ -19,7 +19,8 @@ using postprocess::short_number;
 using shape_pipeline::ColourImage;
 using shape_pipeline::Micrograph;
 
-constexpr int kOverlaySide = 1400, kViewSide = 240;  // [pixels]
+constexpr int kOverlaySide = 1400, kSmallOverlaySide = 700, kViewSide = 240;  // [pixels]
+constexpr std::size_t kFewImages = 4, kMostImages = 40;                       // large so far; pictured at all
 constexpr std::size_t kViews = 6;
 
 /// The values of one descriptor over all whole grains, ascending; those that are no numbers left out.
@@ -90,13 +91,16 @@ LinePlot distribution(const Micrograph& micrograph, const char* name, const char
   return plot;
 }
 
-postprocess::SourceEntry micrograph_entry(const fs::path& image, const Micrograph& micrograph) {
+postprocess::SourceEntry micrograph_entry(const fs::path& image, const Micrograph& micrograph, int side) {
   postprocess::SourceEntry source;
   source.name = image.filename().string();
-  source.pictures.push_back(
-      page_picture(overlay(image, micrograph, kOverlaySide),
-                   formatted("outlines over the image: %d x %d pixels of ", micrograph.width, micrograph.height) +
-                       length_text(micrograph.pixel_size)));
+  if (side > 0)
+    source.pictures.push_back(
+        page_picture(overlay(image, micrograph, side),
+                     formatted("outlines over the image: %d x %d pixels of ", micrograph.width, micrograph.height) +
+                         length_text(micrograph.pixel_size)));
+  else
+    source.notes.push_back(formatted("Pictures of the first %zu images only.", kMostImages));
   source.tables = {count_table(micrograph), figure_table(micrograph)};
   source.plots = {
       distribution(micrograph, "equivalent_diameter_area", "Size", "diameter of equal area [um]", 1e6),
@@ -112,8 +116,9 @@ postprocess::SourceEntry micrograph_entry(const fs::path& image, const Micrograp
 postprocess::DigitizingReport report_of(const MicrographBatch& batch) {
   GrainPages pages(batch.options().catalog_path, batch.outcomes());
   std::vector<postprocess::SourceEntry> sources;
+  const int side = batch.micrographs().size() <= kFewImages ? kOverlaySide : kSmallOverlaySide;
   for (const ReadMicrograph& read : batch.micrographs())
-    sources.push_back(micrograph_entry(read.image, read.micrograph));
+    sources.push_back(micrograph_entry(read.image, read.micrograph, sources.size() < kMostImages ? side : 0));
   for (GrainPages::Grain& grain : pages.grains()) {
     if (!grain.is_drawn) continue;
     if (grain.has_shape()) {
