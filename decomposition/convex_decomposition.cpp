@@ -25,8 +25,6 @@ std::string range_text(double least, double most) {
   return text;
 }
 
-constexpr int kFewestVertices = 8, kMostVertices = 64, kFewestFaces = 8, kMostFaces = 2 * kMostVertices - 4;
-
 void check_options(const DecompositionOptions& options, const std::vector<int>& part_counts) {
   const auto require = [](bool holds, const std::string& what) {
     if (!holds) throw catalog::InputError("decomposition option " + what);
@@ -237,17 +235,6 @@ catalog::LevelOfDetail decompose(const catalog::TriangleMesh& mesh, const Decomp
   return decompose_ladder(mesh, {options.parts}, options).front();
 }
 
-std::string bodies_name(SeparateBodies bodies) {
-  switch (bodies) {
-    case SeparateBodies::largest:
-      return "largest";
-    case SeparateBodies::refuse:
-      return "refuse";
-    default:
-      return "join";
-  }
-}
-
 LevelFigures figures(const std::vector<catalog::ConvexPart>& parts) {
   LevelFigures result;
   result.smallest_thickness = result.smallest_volume = std::numeric_limits<double>::infinity();
@@ -271,7 +258,7 @@ LevelFigures figures(const std::vector<catalog::ConvexPart>& parts) {
 std::string options_json(const DecompositionOptions& options) {
   return "{\"parts\":" + std::to_string(options.parts) + ",\"vertex_cap\":" + std::to_string(options.vertex_cap) +
          ",\"face_cap\":" + std::to_string(options.face_cap) + ",\"mode\":\"" + mode_name(options.mode) +
-         "\",\"bodies\":\"" + bodies_name(options.bodies) + "\",\"seed\":" + std::to_string(options.seed) +
+         "\",\"bodies\":\"" + separate_bodies_name(options.bodies) + "\",\"seed\":" + std::to_string(options.seed) +
          ",\"effort\":" + number(options.effort) + ",\"time_budget\":" + number(options.time_budget) +
          ",\"smallest_thickness\":" + number(options.smallest_thickness) +
          ",\"smallest_volume\":" + number(options.smallest_volume) + "}";

@@ -5,30 +5,27 @@
 #include <string>
 #include <vector>
 
+#include "catalog/separate_bodies.h"
 #include "catalog/shape_record.h"
 #include "catalog/triangle_mesh.h"
 
 namespace decomposition {
 
 using catalog::FitMode;
-
-/// What becomes of closed surfaces that lie apart from one another.
-enum class SeparateBodies {
-  join,     // all are one rigid body
-  largest,  // the one of most volume, with its cavities
-  refuse
-};
+using catalog::SeparateBodies;
 
 inline constexpr double kLeastEffort = 0.1, kMostEffort = 100;
+inline constexpr int kFewestVertices = 8, kMostVertices = 64;               // of a part, that may be asked for
+inline constexpr int kFewestFaces = 8, kMostFaces = 2 * kMostVertices - 4;  // triangles of a closed surface
 
 struct DecompositionOptions {
   int parts = 8;        // at most; fewer where more would not help or would make slivers
   int vertex_cap = 32;  // of each part, 8 to 64
   int face_cap = 0;     // of each part, faces in one plane counted as one, 8 to 124; 0: none
   FitMode mode = FitMode::volume_true;
-  SeparateBodies bodies = SeparateBodies::join;
-  std::uint64_t seed = 1;  // same mesh, options and seed: same bytes, whatever `threads` is
-  double effort = 1;       // scales the number of cuts and fits tried, 0.1 to 100; time grows in proportion
+  SeparateBodies bodies = SeparateBodies::join;  // largest: of most volume, with its cavities
+  std::uint64_t seed = 1;                        // same mesh, options and seed: same bytes, whatever `threads` is
+  double effort = 1;  // scales the number of cuts and fits tried, 0.1 to 100; time grows in proportion
   // CPU time [s] for all levels together: instead of one search of `effort`, whole searches of growing effort, as many
   // as fit into it, at least one, up to the greatest effort, of which each level keeps the best: one that keeps the
   // rules on edges and faces, then the one of least error; so more time never gives a worse level. How many fit depends
@@ -102,9 +99,6 @@ std::vector<catalog::LevelOfDetail> decompose_ladder(const catalog::TriangleMesh
 
 /// Figures of finished parts; ledge_area needs the cuts and stays 0 here, a level's provenance has it.
 LevelFigures figures(const std::vector<catalog::ConvexPart>& parts);
-
-/// "join", "largest" or "refuse".
-std::string bodies_name(SeparateBodies bodies);
 
 /// The options that change the result, as a JSON object; what Provenance::options holds under "options".
 std::string options_json(const DecompositionOptions& options);

@@ -25,7 +25,7 @@ constexpr double kTruthTolerance = 0.02;  // relative error of volume and area a
 struct Solid {
   catalog::TriangleMesh mesh;
   std::vector<catalog::Check> checks;
-  std::string refusal;
+  std::string refusal, remedy;  // remedy: where the refusal has one of its own
 };
 
 Solid solid_from_cloud(const std::filesystem::path& scan, const DigitizationOptions& options) {
@@ -40,7 +40,7 @@ Solid solid_from_cloud(const std::filesystem::path& scan, const DigitizationOpti
   if (file.had_unusable_normals)
     reconstruction.checks.push_back(
         {"given_normals", false, 0, "the normal columns hold no unit vectors: estimated instead"});
-  return {std::move(reconstruction.mesh), std::move(reconstruction.checks), std::move(reconstruction.refusal)};
+  return {std::move(reconstruction.mesh), std::move(reconstruction.checks), std::move(reconstruction.refusal), ""};
 }
 
 Solid solid_from_mesh(const std::filesystem::path& scan, const DigitizationOptions& options) {
@@ -48,9 +48,11 @@ Solid solid_from_mesh(const std::filesystem::path& scan, const DigitizationOptio
     refuse_file(scan, "", "the Poisson method is for point clouds, this is a mesh", "use --method auto or alpha-wrap");
   RepairOptions repair;
   repair.genus = options.reconstruction.genus;
+  repair.bodies = options.bodies;
   if (options.reconstruction.method == ReconstructionMethod::alpha_wrap) repair.wrapping = Wrapping::always;
   RepairedMesh repaired = repair_mesh(read_mesh(scan, options.metres_per_unit), repair);
-  return {std::move(repaired.mesh), std::move(repaired.checks), std::move(repaired.refusal)};
+  return {std::move(repaired.mesh), std::move(repaired.checks), std::move(repaired.refusal),
+          std::move(repaired.remedy)};
 }
 
 void compare_with_truth(catalog::ShapeRecord& shape, const ScanTruth& truth) {
@@ -71,7 +73,9 @@ void compare_with_truth(catalog::ShapeRecord& shape, const ScanTruth& truth) {
 catalog::ShapeRecord described(Solid solid, const std::filesystem::path& scan, const DigitizationOptions& options,
                                const std::optional<ScanTruth>& truth) {
   if (!solid.refusal.empty())
-    refuse_file(scan, "", solid.refusal, "scan the particle again from all sides, or state its handles with --genus");
+    refuse_file(scan, "", solid.refusal,
+                solid.remedy.empty() ? "scan the particle again from all sides, or state its handles with --genus"
+                                     : solid.remedy);
   RemeshedMesh remeshed = remesh(solid.mesh, options.remeshing);
 
   catalog::ShapeRecord shape = in_principal_frame(remeshed.mesh);
@@ -118,7 +122,7 @@ catalog::ShapeRecord digitize_cloud(const PointCloud& cloud, const std::filesyst
                                     const DigitizationOptions& options, const std::vector<catalog::Check>& made) {
   Reconstruction found = reconstruct_surface(cloud, options.reconstruction);
   found.checks.insert(found.checks.begin(), made.begin(), made.end());
-  return described({std::move(found.mesh), std::move(found.checks), std::move(found.refusal)}, scan, options,
+  return described({std::move(found.mesh), std::move(found.checks), std::move(found.refusal), ""}, scan, options,
                    std::nullopt);
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "catalog/separate_bodies.h"
 #include "catalog/shape_record.h"
 #include "shape_pipeline/mesh_remeshing.h"
 #include "shape_pipeline/point_cloud.h"
@@ -14,8 +15,9 @@
 namespace shape_pipeline {
 
 struct DigitizationOptions {
-  double metres_per_unit = 1;     // of the file's coordinates
-  bool drops_nan_points = false;  // of clouds; else such a file is refused
+  double metres_per_unit = 1;                                        // of the file's coordinates
+  bool drops_nan_points = false;                                     // of clouds; else such a file is refused
+  catalog::SeparateBodies bodies = catalog::SeparateBodies::refuse;  // of meshes, see RepairOptions
   ReconstructionOptions reconstruction;
   RemeshingOptions remeshing;
   std::optional<double> sieve_size;  // rescale so that the intermediate axis has this length [m]

@@ -27,7 +27,7 @@ std::vector<catalog::Check> solid_checks(const catalog::TriangleMesh& mesh, cons
       static_cast<double>(topology.boundary_edges + topology.non_manifold_edges + topology.misoriented_edges);
   const auto components = static_cast<double>(topology.components);
   const auto euler_number = static_cast<double>(topology.euler_number);
-  const double expected_euler_number = 2 - 2 * expectation.genus;
+  const double expected_euler_number = 2 * expectation.surfaces - 2 * expectation.genus;
   const double volume = signed_volume(mesh);
   const double hull_volume = signed_volume(convex_hull(mesh.vertices));
   const double hull_ratio = hull_volume > 0 ? volume / hull_volume : 0;
@@ -35,8 +35,8 @@ std::vector<catalog::Check> solid_checks(const catalog::TriangleMesh& mesh, cons
   std::vector<catalog::Check> checks{
       {"closed", topology.is_closed() && !mesh.faces.empty(), flaws,
        text("%.0f open, forked or misoriented edges, expected %.0f", flaws, 0)},
-      {"one_component", topology.components == 1, components,
-       text("%.0f separate surfaces, expected %.0f", components, 1)},
+      {"one_component", topology.components == static_cast<std::size_t>(expectation.surfaces), components,
+       text("%.0f separate surfaces, expected %.0f", components, expectation.surfaces)},
       {"euler_number", euler_number == expected_euler_number, euler_number,
        text("Euler number %.0f, expected %.0f", euler_number, expected_euler_number)},
       {"positive_volume", volume > 0, volume, text("volume %.6g m3, expected more than %.0f", volume, 0)},

@@ -9,7 +9,8 @@
 namespace shape_pipeline {
 
 struct SolidExpectation {
-  int genus = 0;
+  int genus = 0;                          // of all surfaces together
+  int surfaces = 1;                       // separate ones
   double second_volume = 0;               // [m3], by a method that needs no closed surface; 0 if there is none
   double second_volume_tolerance = 0.05;  // largest relative difference
   double least_hull_ratio = 0.5;          // V / V_hull below this: the surface has folded inwards

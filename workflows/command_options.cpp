@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <limits>
@@ -27,6 +28,12 @@ std::string joined(const std::vector<int>& numbers) {
   return text;
 }
 
+std::string short_text(double number) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", number);
+  return text;
+}
+
 /// "a, b or c"
 std::string alternatives(const std::vector<std::string>& words) {
   std::string text;
@@ -39,7 +46,36 @@ std::string alternatives(const std::vector<std::string>& words) {
   throw CLI::ValidationError(name, "expected " + expected + ", found '" + found + "'");
 }
 
+CLI::Option* add_number_to(CLI::App& app, const std::string& name, const std::function<void(double)>& take,
+                           NumberRange range, const std::string& help) {
+  const auto read = [take, name, range](const std::string& text) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
+    if (!is_number || number < range.least || number > range.most || (range.is_below_most && number == range.most))
+      refuse(name,
+             "a number from " + short_text(range.least) + (range.is_below_most ? " to below " : " to ") +
+                 short_text(range.most),
+             text);
+    take(number);
+  };
+  return app.add_option_function<std::string>(name, read, help)->type_name("NUMBER");
+}
+
 }  // namespace
+
+void add_number(CLI::App& app, const std::string& name, double& number, NumberRange range, const std::string& help) {
+  add_number_to(
+      app, name, [&number](double found) { number = found; }, range, help)
+      ->default_str(short_text(number));
+}
+
+void add_number(CLI::App& app, const std::string& name, std::optional<double>& number, double if_not_given,
+                NumberRange range, const std::string& help) {
+  add_number_to(
+      app, name, [&number](double found) { number = found; }, range, help)
+      ->default_str(short_text(if_not_given));
+}
 
 void add_number_list(CLI::App& app, const std::string& name, std::vector<int>& numbers, WholeRange range,
                      const std::string& help) {
@@ -53,7 +89,7 @@ void add_number_list(CLI::App& app, const std::string& name, std::vector<int>& n
                "whole numbers from " + std::to_string(range.least) + " to " + std::to_string(range.most) +
                    " with commas between them",
                text);
-      found.push_back(*number);
+      if (std::find(found.begin(), found.end(), *number) == found.end()) found.push_back(*number);
       begin = end + 1;
     }
     numbers = found;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,12 +23,24 @@ struct WholeRange {
   int least, most;
 };
 
-/// "1,2,4": whole numbers in a range, with commas between them.
+struct NumberRange {
+  double least, most;
+  bool is_below_most = false;  // the greatest is not allowed itself
+};
+
+/// "1,2,4": whole numbers in a range, with commas between them; one that comes again is taken once.
 void add_number_list(CLI::App& app, const std::string& name, std::vector<int>& numbers, WholeRange range,
                      const std::string& help);
 
 /// A whole number in a range.
 void add_whole_number(CLI::App& app, const std::string& name, int& number, WholeRange range, const std::string& help);
+
+/// A finite number in a range.
+void add_number(CLI::App& app, const std::string& name, double& number, NumberRange range, const std::string& help);
+
+/// The same where it matters whether it is given; `if_not_given` is shown in the help.
+void add_number(CLI::App& app, const std::string& name, std::optional<double>& number, double if_not_given,
+                NumberRange range, const std::string& help);
 
 /// A whole number from 0 to 2^64 - 1.
 void add_seed(CLI::App& app, const std::string& name, std::uint64_t& seed, const std::string& help);

@@ -2,7 +2,6 @@
 // talus-decompose: convex parts at several levels of detail for the shapes of a catalogue.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -25,30 +24,14 @@ struct CommandLine {
   std::vector<std::filesystem::path> inputs;
   std::string into, unit;  // of scans
   std::optional<int> genus;
+  std::optional<catalog::SeparateBodies> bodies;
   DecomposeBatchOptions batch;
   std::optional<double> effort;
   bool json = false;
 };
 
-/// A range lets what is not a number through.
-CLI::Validator finite_number() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        double value = 0;
-        return CLI::detail::lexical_cast(text, value) && std::isfinite(value) ? std::string() : text + " is no number";
-      },
-      "");
-}
-
-CLI::Validator share() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        double value = 0;
-        return CLI::detail::lexical_cast(text, value) && value >= 0 && value < 1
-                   ? std::string()
-                   : "expected a share from 0 to below 1, found '" + text + "'";
-      },
-      "");
+std::string face_range() {
+  return std::to_string(decomposition::kFewestFaces) + " to " + std::to_string(decomposition::kMostFaces);
 }
 
 CLI::Validator face_cap() {
@@ -56,9 +39,9 @@ CLI::Validator face_cap() {
       [](const std::string& text) {
         int value = 0;
         const bool is_number = CLI::detail::lexical_cast(text, value);
-        return is_number && (value == 0 || (value >= 8 && value <= 124))
+        return is_number && (value == 0 || (value >= decomposition::kFewestFaces && value <= decomposition::kMostFaces))
                    ? std::string()
-                   : "expected 8 to 124 faces, or 0 for no cap, found '" + text + "'";
+                   : "expected " + face_range() + " faces, or 0 for no cap, found '" + text + "'";
       },
       "");
 }
@@ -77,40 +60,33 @@ void declare_options(CLI::App& app, CommandLine& line) {
       ->check(CLI::Range(0, 100));
   add_number_list(app, "--parts", line.batch.part_counts, {1, catalog::kMostParts},
                   "levels: most convex parts of each, 1 to " + std::to_string(catalog::kMostParts));
-  add_number_list(app, "--vertices", line.batch.vertex_caps, {8, 64},
-                  "most vertices a part, 8 to 64; several, such as 16,32,64, make a ladder of each");
+  add_number_list(
+      app, "--vertices", line.batch.vertex_caps, {decomposition::kFewestVertices, decomposition::kMostVertices},
+      "most vertices a part, " + std::to_string(decomposition::kFewestVertices) + " to " +
+          std::to_string(decomposition::kMostVertices) + "; several, such as 16,32,64, make a ladder of each");
   app.add_option("--faces", quality.face_cap,
-                 "most faces a part, faces in one plane counted as one, 8 to 124; 0 (if not given): no cap")
+                 "most faces a part, faces in one plane counted as one, " + face_range() + "; 0 (if not given): no cap")
       ->check(face_cap());
   add_word(
       app, "--mode", catalog::mode_names(),
       [&](std::size_t mode) { quality.mode = static_cast<catalog::FitMode>(mode); },
       "volume-true (if not given; the mesh's volume), enclosing (nothing missing; bodies in a fill weigh what the "
       "level's larger volume weighs) or inscribed (nothing sticks out; they weigh less)");
-  using decomposition::SeparateBodies;
-  const std::vector<SeparateBodies> choices{SeparateBodies::join, SeparateBodies::largest, SeparateBodies::refuse};
-  std::vector<std::string> words;
-  for (const SeparateBodies choice : choices) words.push_back(bodies_name(choice));
   add_word(
-      app, "--bodies", words, [&quality, choices](std::size_t k) { quality.bodies = choices[k]; },
-      "of a mesh of several bodies: join (if not given) them in one grain, keep the largest, or refuse");
-  app.add_option(
-         "--time-budget", quality.time_budget,
-         "CPU seconds a shape, shared by its caps of vertices: searches of growing effort, the best kept, so that more "
-         "time is never worse; how many depends on the machine; 0 (if not given): one search of --effort")
-      ->check(finite_number() & CLI::Range(0.0, 1e6));
-  app.add_option("--smallest-thickness", quality.smallest_thickness,
-                 "of a part, as a share of that of the shape (of several bodies the thickest); from 0 to below 1")
-      ->check(share())
-      ->capture_default_str();
-  app.add_option("--smallest-volume", quality.smallest_volume,
-                 "of a part, as a share of that of the shape (of several bodies the largest); from 0 to below 1")
-      ->check(share())
-      ->capture_default_str();
+      app, "--bodies", catalog::separate_bodies_names(),
+      [&](std::size_t k) { line.bodies = static_cast<catalog::SeparateBodies>(k); },
+      "of a mesh of several bodies: join them in one grain (if not given), keep the largest, or refuse; with --into "
+      "also as talus digitize has it, which refuses scans of several if it is not given");
+  add_number(app, "--time-budget", quality.time_budget, {0, 1e6},
+             "CPU seconds a shape, shared by its caps of vertices: searches of growing effort, the best kept, so that "
+             "more time is never worse; how many depends on the machine; 0: one search of --effort");
+  add_number(app, "--smallest-thickness", quality.smallest_thickness, {0, 1, true},
+             "of a part, as a share of that of the shape (of several bodies the thickest)");
+  add_number(app, "--smallest-volume", quality.smallest_volume, {0, 1, true},
+             "of a part, as a share of that of the shape (of several bodies the largest)");
   add_seed(app, "--seed", quality.seed, "of the random numbers; the same seed gives the same bytes");
-  app.add_option("--effort", line.effort, "more looks for better cuts, time in proportion; not with --time-budget")
-      ->check(finite_number() & CLI::Range(decomposition::kLeastEffort, decomposition::kMostEffort))
-      ->default_str("1");
+  add_number(app, "--effort", line.effort, 1, {decomposition::kLeastEffort, decomposition::kMostEffort},
+             "more looks for better cuts, time in proportion; not with --time-budget");
   app.add_option("--threads", quality.threads, "0: as many as the machine has")->check(CLI::Range(0, 1024));
   app.add_option("--select", line.batch.select, "only the shapes of this query, see talus catalog query --help");
   app.add_flag("--json", line.json, "one JSON object instead of a table; ratios, not per cent");
@@ -130,6 +106,7 @@ Scans digitized(const CommandLine& line) {
   options.catalog_path = line.into;
   options.settings.unit = line.unit;
   options.settings.genus = line.genus.value_or(0);
+  if (line.bodies) options.settings.bodies = *line.bodies;
   DigitizeBatch batch(options);
   batch.run();
   Scans scans;
@@ -201,6 +178,7 @@ DecomposeBatchResult decompose_with_progress(const DecomposeBatchOptions& option
 int decompose_all(CommandLine line) {
   check_inputs(line);
   if (line.effort) line.batch.quality.effort = *line.effort;
+  if (line.bodies) line.batch.quality.bodies = *line.bodies;
   DecomposeBatchResult result;
   std::string failed_checks;
   if (line.into.empty()) {

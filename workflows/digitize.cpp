@@ -133,6 +133,11 @@ void declare_options(CLI::App& app, CommandLine& line) {
   app.add_option("--genus", line.batch.settings.genus, "handles of the particle: 0 for a stone, 1 for a ring")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
+  add_word(
+      app, "--bodies", catalog::separate_bodies_names(),
+      [&line](std::size_t k) { line.batch.settings.bodies = static_cast<catalog::SeparateBodies>(k); },
+      "of a mesh of several bodies: join them in one grain, keep the largest, or refuse (if not given; pieces of less "
+      "than a tenth of the area together are specks, and dropped)");
   app.add_option("--faces", line.batch.settings.faces, "largest number of faces kept")
       ->check(CLI::Range(100, 10000000))
       ->capture_default_str();

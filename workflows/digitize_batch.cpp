@@ -103,6 +103,7 @@ DigitizationOptions digitization_options(const ScanSettings& settings) {
   options.metres_per_unit = *unit;
   options.drops_nan_points = settings.drops_nan;
   options.reconstruction.genus = settings.genus;
+  options.bodies = settings.bodies;
   if (settings.method == "poisson") options.reconstruction.method = ReconstructionMethod::poisson;
   if (settings.method == "alpha-wrap") options.reconstruction.method = ReconstructionMethod::alpha_wrap;
   options.remeshing.face_limit = static_cast<std::size_t>(settings.faces);
@@ -125,6 +126,8 @@ std::string scan_options_text(const ScanSettings& settings, const std::optional<
                                  {"remeshing", settings.is_isotropic ? "isotropic" : "edge_collapse"},
                                  {"method", settings.method}};
   if (settings.drops_nan) options["drop_nan"] = true;
+  if (settings.bodies != catalog::SeparateBodies::refuse)
+    options["bodies"] = catalog::separate_bodies_name(settings.bodies);
   if (!settings.size.empty()) options["size"] = settings.size;
   if (truth) options["truth"] = {{"volume", truth->volume}, {"surface_area", truth->surface_area}};
   return options.dump();

@@ -18,6 +18,7 @@ struct ScanSettings {
   std::string unit, size, method = "auto";
   int genus = 0, faces = 10000;
   bool is_isotropic = false, drops_nan = false;
+  catalog::SeparateBodies bodies = catalog::SeparateBodies::refuse;
 };
 
 struct DigitizeBatchOptions {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // talus-decompose on a folder of scans, as a user starts it.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +10,7 @@
 #include "shape_pipeline/mesh_file.h"
 #include "tests/support/solids.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/tool_run.h"
 
 namespace {
 
@@ -21,13 +20,10 @@ using test_support::TemporaryFolder;
 using test_support::write_bytes;
 
 int decompose(const TemporaryFolder& folder, const std::string& arguments) {
-  const std::string line =
-      "cd '" + folder.path().string() + "' && '" TALUS_DECOMPOSE "' " + arguments + " >out.json 2>err";
-  const int status = std::system(line.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return test_support::run(folder, "'" TALUS_DECOMPOSE "' " + arguments).status;
 }
 
-json output(const TemporaryFolder& folder) { return json::parse(read_bytes(folder / "out.json")); }
+json output(const TemporaryFolder& folder) { return json::parse(read_bytes(folder / "out")); }
 
 std::string reason_of(const json& result, const std::string& shape) {
   for (const json& failure : result["failures"])
@@ -107,6 +103,8 @@ TEST(DecomposeFolder, AnOptionIsRefusedWithWhatIsAllowedAndWhatWasFound) {
   for (const std::string list : {"1,,2", "1,2,", ",1", "0", "257", "1x", "1.5"})
     expect("--parts " + list, parts + list + "'");
   expect("--vertices 16,65", "--vertices: expected whole numbers from 8 to 64 with commas between them, found '16,65'");
+  expect("--effort inf", "--effort: expected a number from 0.1 to 100, found 'inf'");
+  expect("--smallest-volume 1", "--smallest-volume: expected a number from 0 to below 1, found '1'");
   expect("--faces 5", "--faces: expected 8 to 124 faces, or 0 for no cap, found '5'");
   EXPECT_EQ(usage_error(folder, "ore.talus --genus 0"),
             "talus decompose: usage: --genus is for scans; add --into ore.talus\n");
@@ -117,19 +115,39 @@ TEST(DecomposeFolder, TheTableTellsModesAndCapsOfFacesWhereThereAreAny) {
   shape_pipeline::write_stl(folder / "box.stl", solids::box({0, 0, 0}, {1, 2, 3}));
   const auto header = [&](const std::string& arguments) {
     EXPECT_EQ(decompose(folder, arguments), 0) << read_bytes(folder / "err");
-    const std::string table = read_bytes(folder / "out.json");
+    const std::string table = read_bytes(folder / "out");
     return table.substr(0, table.find('\n'));
   };
   const std::string plain = header("box.stl --into ore.talus --unit mm --parts 1");
   EXPECT_TRUE(plain.starts_with("shape  asked    cap  parts  vertices")) << plain;
   const std::string capped = header("ore.talus --parts 1 --mode enclosing --faces 24");
   EXPECT_TRUE(capped.starts_with("shape  mode         asked    cap  faces<=  parts")) << capped;
-  EXPECT_NE(read_bytes(folder / "out.json").find("\nbox    enclosing        1     32       24      1  "),
-            std::string::npos)
-      << read_bytes(folder / "out.json");
+  EXPECT_NE(read_bytes(folder / "out").find("\nbox    enclosing        1     32       24      1  "), std::string::npos)
+      << read_bytes(folder / "out");
   ASSERT_EQ(decompose(folder, "ore.talus --parts 1 --mode enclosing --faces 24 --json"), 0);
   EXPECT_EQ(output(folder)["levels"][0]["mode"], "enclosing");
   EXPECT_EQ(output(folder)["levels"][0]["face_cap"], 24);
+}
+
+TEST(DecomposeFolder, SeveralBodiesOfAScanAreJoinedOrOneIsKeptOrAllRefused) {
+  const TemporaryFolder folder;
+  shape_pipeline::write_stl(folder / "pair.stl",
+                            solids::together({solids::box({0, 0, 0}, {2, 2, 2}), solids::box({3, 0, 0}, {4, 1, 1})}));
+  const std::string command = "pair.stl --into ore.talus --unit m --parts 2,2 --json";
+  EXPECT_EQ(decompose(folder, command), 3);
+  const std::string reason = reason_of(output(folder), "pair");
+  EXPECT_NE(reason.find("2 separate bodies"), std::string::npos) << reason;
+  EXPECT_NE(reason.find("--bodies join"), std::string::npos) << reason;
+  const auto volume = [&](const std::string& bodies) {
+    EXPECT_EQ(decompose(folder, command + " --bodies " + bodies), 0) << read_bytes(folder / "err");
+    const json levels = output(folder)["levels"];
+    EXPECT_EQ(levels.size(), 1u) << "a number of parts given twice is one level";
+    EXPECT_LT(levels[0]["symmetric_difference"], 1e-9);
+    const catalog::ShapeCatalog shapes(folder / "ore.talus", catalog::ShapeCatalog::Access::read_only);
+    return shapes.shape(*shapes.find("pair")).mass_properties.volume;
+  };
+  EXPECT_NEAR(volume("join"), 9, 1e-12);
+  EXPECT_NEAR(volume("largest"), 8, 1e-12);
 }
 
 TEST(DecomposeFolder, ASecondRunDoesWhatIsNew) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // talus-decompose on small catalogues, through its library and as a user starts it.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <cstdlib>
 #include <limits>
@@ -10,6 +9,7 @@
 #include "catalog/input_error.h"
 #include "tests/support/solids.h"
 #include "tests/support/temporary_folder.h"
+#include "tests/support/tool_run.h"
 #include "workflows/decompose_batch.h"
 
 namespace workflows {
@@ -43,10 +43,7 @@ DecomposeBatchOptions one_and_two() {
 }
 
 int run(const std::string& arguments, const TemporaryFolder& folder) {
-  const std::string line = "'" TALUS_DECOMPOSE "' " + arguments + " >'" + (folder / "out").string() + "' 2>'" +
-                           (folder / "err").string() + "'";
-  const int status = std::system(line.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return test_support::run(folder, "'" TALUS_DECOMPOSE "' " + arguments).status;
 }
 
 TEST(DecomposeStage, StoresLevelsAndGoesOnPastABadShape) {

@@ -159,16 +159,25 @@ TEST(MeshRepair, RefusesAnOpenSheetWithTheReason) {
   EXPECT_NE(repaired.refusal.find("patches make up"), std::string::npos) << repaired.refusal;
 }
 
-TEST(MeshRepair, AWrapReplacesTangledShellsAndSaysSo) {
-  // Two spheres that overlap: each is closed, together they are one peanut-shaped solid.
+// Union of two unit balls at distance d: 8 pi / 3 minus the lens pi (4 + d) (2 - d)^2 / 12.
+double peanut_volume(double d) { return std::numbers::pi * (8.0 / 3 - (4 + d) * (2 - d) * (2 - d) / 12); }
+
+TEST(MeshRepair, ClosedShellsThatCrossAreOneBody) {
   const RepairedMesh repaired = repair_mesh(joined(uv_sphere(1, 24), moved(uv_sphere(1, 24), 1, {0.9, 0, 0})), {});
+  expect_solid(repaired, peanut_volume(0.9), 0.01);  // facets of inscribed balls
+  EXPECT_EQ(figure(repaired.checks, "repair_united_bodies"), 1);
+  EXPECT_NEAR(figure(repaired.checks, "deviation_largest"), 0, 1e-12);
+}
+
+TEST(MeshRepair, AWrapReplacesTangledOpenShellsAndSaysSo) {
+  catalog::TriangleMesh open = uv_sphere(1, 24);
+  open.faces.pop_back();
+  const RepairedMesh repaired = repair_mesh(joined(open, moved(open, 1, {0.9, 0, 0})), {});
   ASSERT_EQ(repaired.refusal, "");
   EXPECT_EQ(figure(repaired.checks, "repaired_solid"), 0);
   // Each sphere's farthest point inside the other is 0.9 from its surface.
   EXPECT_NEAR(figure(repaired.checks, "deviation_largest"), 0.9 / std::hypot(2.9, 2, 2), 0.005);
-  // Union of two unit balls at distance d: 8 pi / 3 minus the lens pi (4 + d) (2 - d)^2 / 12.
-  const double d = 0.9, pi = std::numbers::pi, lens = pi * (4 + d) * (2 - d) * (2 - d) / 12;
-  EXPECT_NEAR(signed_volume(repaired.mesh), 8 * pi / 3 - lens, 0.05 * (8 * pi / 3 - lens));
+  EXPECT_NEAR(signed_volume(repaired.mesh), peanut_volume(0.9), 0.05 * peanut_volume(0.9));
 }
 
 TEST(Remeshing, KeepsVolumeAndAreaOfARock) {
@@ -188,6 +197,98 @@ TEST(Remeshing, LeavesASmallMeshAloneAndIsotropicEvensEdges) {
   const RemeshedMesh even = remesh(sphere, {4000, RemeshingStyle::isotropic});
   EXPECT_NEAR(static_cast<double>(even.mesh.faces.size()), 4000, 1200);
   EXPECT_NEAR(signed_volume(even.mesh), signed_volume(sphere), 3e-3 * signed_volume(sphere));
+}
+
+RepairedMesh with_bodies(const catalog::TriangleMesh& mesh, catalog::SeparateBodies bodies, int genus = 0) {
+  RepairOptions options = kNoWrap;
+  options.genus = genus;
+  options.bodies = bodies;
+  return repair_mesh(mesh, options);
+}
+
+catalog::TriangleMesh inside_out(catalog::TriangleMesh mesh) {
+  for (auto& face : mesh.faces) std::swap(face[1], face[2]);
+  return mesh;
+}
+
+const catalog::TriangleMesh kBox = box_mesh({0, 0, 0}, {2, 2, 2}), kOther = box_mesh({3, 0, 0}, {4, 1, 1});
+
+TEST(SeveralBodies, AreRefusedWithTheWayToJoinThem) {
+  const RepairedMesh refused = with_bodies(joined(kBox, kOther), catalog::SeparateBodies::refuse);
+  EXPECT_EQ(refused.refusal, "2 separate bodies, the largest with 80.0 % of the area, expected one");
+  EXPECT_NE(refused.remedy.find("--bodies join"), std::string::npos);
+}
+
+TEST(SeveralBodies, TheLargestAloneIsNoDeviation) {
+  const RepairedMesh largest = with_bodies(joined(kOther, kBox), catalog::SeparateBodies::largest);
+  expect_solid(largest, 8, 1e-12);
+  EXPECT_EQ(figure(largest.checks, "repair_dropped_surfaces"), 1);
+  EXPECT_NEAR(figure(largest.checks, "deviation_largest"), 0, 1e-12);
+}
+
+// Unwelded, one inside out: what each needs is done to it alone.
+TEST(SeveralBodies, JoinedAreRepairedEach) {
+  catalog::TriangleMesh holed = uv_sphere(1, 16);
+  holed.faces.pop_back();
+  const double whole = signed_volume(uv_sphere(1, 16)), ring = signed_volume(torus(3, 1, 16));
+  const catalog::TriangleMesh scan =
+      joined(joined(unwelded(inside_out(kBox)), moved(holed, 1, {6, 0, 0})), moved(torus(3, 1, 16), 1, {0, 9, 0}));
+  const RepairedMesh repaired = with_bodies(scan, catalog::SeparateBodies::join, 1);
+  ASSERT_EQ(repaired.refusal, "");
+  const MeshTopology topology = mesh_topology(repaired.mesh);
+  EXPECT_TRUE(topology.is_closed());
+  EXPECT_EQ(topology.components, 3u);
+  EXPECT_EQ(topology.euler_number, 4);
+  EXPECT_NEAR(signed_volume(repaired.mesh), 8 + whole + ring, 2e-3 * whole);  // the patch is not the facet
+  EXPECT_EQ(figure(repaired.checks, "repair_joined_bodies"), 3);
+  EXPECT_EQ(figure(repaired.checks, "repair_turned_surfaces"), 1);
+  EXPECT_EQ(figure(repaired.checks, "repair_filled_holes"), 1);
+  EXPECT_LT(figure(repaired.checks, "deviation_largest"), 1e-3);
+  EXPECT_NE(with_bodies(scan, catalog::SeparateBodies::join, 0).refusal, "");  // the ring has a handle
+}
+
+TEST(SeveralBodies, SurfacesInABodyAreCavitiesOrNothing) {
+  const catalog::TriangleMesh inner = box_mesh({0.5, 0.5, 0.5}, {1.5, 1.5, 1.5});
+  const catalog::TriangleMesh core = box_mesh({0.75, 0.75, 0.75}, {1.25, 1.25, 1.25});
+  const RepairedMesh hollow = with_bodies(joined(inside_out(inner), kBox), catalog::SeparateBodies::join);
+  ASSERT_EQ(hollow.refusal, "");
+  EXPECT_NEAR(signed_volume(hollow.mesh), 7, 1e-12);
+  EXPECT_EQ(figure(hollow.checks, "repair_kept_cavities"), 1);
+  const RepairedMesh rattle = with_bodies(joined(joined(core, inside_out(inner)), kBox), catalog::SeparateBodies::join);
+  ASSERT_EQ(rattle.refusal, "");
+  EXPECT_NEAR(signed_volume(rattle.mesh), 7.125, 1e-12);
+  const RepairedMesh doubled = with_bodies(joined(inner, kBox), catalog::SeparateBodies::join);
+  expect_solid(doubled, 8, 1e-12);
+  EXPECT_EQ(figure(doubled.checks, "repair_inner_surfaces"), 1);
+}
+
+TEST(SeveralBodies, ThatCrossAreUnited) {
+  const RepairedMesh crossed = with_bodies(joined(kBox, box_mesh({1, 1, 1}, {3, 3, 3})), catalog::SeparateBodies::join);
+  expect_solid(crossed, 15, 1e-12);
+  EXPECT_EQ(figure(crossed.checks, "repair_united_bodies"), 1);
+  const RepairedMesh touching =
+      with_bodies(joined(kBox, box_mesh({2, 0, 0}, {3, 1, 1})), catalog::SeparateBodies::join);
+  expect_solid(touching, 9, 1e-12);
+}
+
+TEST(SeveralBodies, ThatShareACornerAreRefusedByName) {
+  const RepairedMesh corner = with_bodies(joined(kBox, box_mesh({2, 2, 2}, {3, 3, 3})), catalog::SeparateBodies::join);
+  EXPECT_NE(corner.refusal.find("cannot be united"), std::string::npos) << corner.refusal;
+}
+
+TEST(SeveralBodies, SpecksAreDropped) {
+  const RepairedMesh clean =
+      with_bodies(joined(kBox, box_mesh({5, 5, 5}, {5.01, 5.01, 5.01})), catalog::SeparateBodies::join);
+  expect_solid(clean, 8, 1e-12);
+  EXPECT_EQ(figure(clean.checks, "repair_dropped_surfaces"), 1);
+}
+
+TEST(SeveralBodies, OneBodyIsRepairedAsEver) {
+  const RepairedMesh as_one = with_bodies(kBox, catalog::SeparateBodies::join);
+  const RepairedMesh alone = with_bodies(kBox, catalog::SeparateBodies::refuse);
+  expect_solid(as_one, 8, 1e-12);
+  ASSERT_EQ(as_one.checks.size(), alone.checks.size());
+  for (std::size_t c = 0; c < alone.checks.size(); ++c) EXPECT_EQ(as_one.checks[c].name, alone.checks[c].name);
 }
 
 }  // namespace
