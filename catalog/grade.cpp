@@ -24,6 +24,9 @@ constexpr std::string_view kReservations[] = {"repair_alpha_wrap", "reconstructi
 
 constexpr std::string_view kReplaced = "repaired_solid";  // does not pass where the repaired mesh was replaced
 
+/// Before that, these are of the mesh that was replaced.
+constexpr std::string_view kOfReplacedMesh[] = {"self_intersections", "kept_area_share"};
+
 template <std::size_t N>
 bool is_one_of(const std::string_view (&names)[N], const std::string& name) {
   return std::find(std::begin(names), std::end(names), name) != std::end(names);
@@ -43,7 +46,7 @@ int grade_of(const std::vector<Check>& checks) {
                                      [](const Check& check) { return check.name == kReplaced && !check.passed; });
   int grade = kSound;
   for (auto check = checks.begin(); check != checks.end(); ++check) {
-    const bool is_of_replaced = replaced != checks.end() && check < replaced;
+    const bool is_of_replaced = replaced != checks.end() && check < replaced && is_one_of(kOfReplacedMesh, check->name);
     grade = std::max(grade, is_of_replaced ? std::min(grade_of(*check), kReserved) : grade_of(*check));
   }
   return grade;

@@ -14,8 +14,8 @@ namespace catalog {
 ///      (rebuilt, wrapped, normals estimated, holes of a large share filled), or something was assumed that its source
 ///      does not show
 ///   3  a decisive check did not pass, or there is none
-/// What was found on a mesh that repair then replaced (all before "repaired_solid") informs. A check that is not known
-/// is decisive. The table stands in docs/digitising.md.
+/// The crossings and the kept area of a mesh that repair then replaced (before "repaired_solid") inform. A check that
+/// is not known is decisive. The table stands in docs/digitising.md.
 int grade_of(const std::vector<Check>& checks);
 
 /// The grade in words, one line.

@@ -118,7 +118,8 @@ RepairedMesh joined_bodies(CleanedScan scan, const RepairOptions& options) {
     return result;
   }
   repair.count("turned_surfaces", find_roles(pieces), "surfaces that were inside out turned round");
-  repair.count("inner_surfaces", std::erase_if(pieces, [](const SurfacePiece& piece) { return piece.role == PieceRole::inner; }),
+  repair.count("inner_surfaces",
+               std::erase_if(pieces, [](const SurfacePiece& piece) { return piece.role == PieceRole::inner; }),
                "surfaces in a body that bound nothing dropped");
 
   BodyChecks checks;

@@ -80,15 +80,17 @@ std::vector<SurfacePiece> surface_pieces(const catalog::TriangleMesh& mesh) {
 }
 
 std::size_t find_roles(std::vector<SurfacePiece>& pieces) {
-  std::stable_sort(pieces.begin(), pieces.end(),
-                   [](const SurfacePiece& a, const SurfacePiece& b) { return distance(a.low, a.high) > distance(b.low, b.high); });
+  std::stable_sort(pieces.begin(), pieces.end(), [](const SurfacePiece& a, const SurfacePiece& b) {
+    return distance(a.low, a.high) > distance(b.low, b.high);
+  });
   // None lies in one of a smaller box.
   std::size_t turned = 0;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     SurfacePiece& piece = pieces[p];
     int around = 0;  // bodies less cavities
     for (std::size_t q = 0; q < p; ++q)
-      if (pieces[q].role != PieceRole::inner && lies_in(piece, pieces[q])) around += pieces[q].role == PieceRole::body ? 1 : -1;
+      if (pieces[q].role != PieceRole::inner && lies_in(piece, pieces[q]))
+        around += pieces[q].role == PieceRole::body ? 1 : -1;
     if (around > 0) piece.role = piece.volume < 0 ? PieceRole::cavity : PieceRole::inner;
     if (around > 0 || piece.volume >= 0) continue;
     turn_round(piece.mesh);

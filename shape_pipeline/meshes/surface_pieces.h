@@ -22,16 +22,16 @@ enum class PieceRole {
 struct SurfacePiece {
   catalog::TriangleMesh mesh;
   catalog::Point low{}, high{};  // of its box [m]
-  double area = 0;         // [m2]
-  double volume = 0;       // signed [m3]
+  double area = 0;               // [m2]
+  double volume = 0;             // signed [m3]
   PieceRole role = PieceRole::body;
 };
 
 /// The surfaces in the order of first appearance, their roles not yet found.
 std::vector<SurfacePiece> surface_pieces(const catalog::TriangleMesh& mesh);
 
-/// Finds the roles and turns bodies that are inside out. Puts the pieces in order from the largest box down. Returns how
-/// many were turned. Surfaces that cross count as apart.
+/// Finds the roles and turns bodies that are inside out. Puts the pieces in order from the largest box down. Returns
+/// how many were turned. Surfaces that cross count as apart.
 std::size_t find_roles(std::vector<SurfacePiece>& pieces);
 
 void turn_round(catalog::TriangleMesh& mesh);

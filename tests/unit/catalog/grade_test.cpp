@@ -36,6 +36,7 @@ TEST(Grade, WhatIsUnknownOrMissingIsNotTrusted) {
 TEST(Grade, FlawsOfAMeshThatWasReplacedInform) {
   EXPECT_EQ(grade_of(Checks{failed("self_intersections"), failed("repaired_solid"), passed("closed")}), 2);
   EXPECT_EQ(grade_of(Checks{failed("repaired_solid"), passed("closed"), failed("deviation_mean")}), 3);
+  EXPECT_EQ(grade_of(Checks{failed("volume_second_method"), failed("repaired_solid")}), 3) << "of another body";
   EXPECT_EQ(grade_of(Checks{failed("self_intersections"), passed("closed")}), 3);
 }
 
