@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shape_pipeline/reading/scan_bytes.h"
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <system_error>
@@ -18,7 +19,11 @@ bool is_separator(char c) { return kSeparators.find(c) != std::string_view::npos
 
 void refuse_file(const std::filesystem::path& path, const std::string& place, const std::string& finding,
                  const std::string& remedy) {
-  throw catalog::InputError(path.string() + ": " + (place.empty() ? "" : place + ": ") + finding + "; " + remedy);
+  std::string text = path.string() + ": " + (place.empty() ? "" : place + ": ") + finding + "; " + remedy;
+  // Words of the file, such as the key of a sidecar, may hold what would break the line.
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char letter) { return letter < ' '; }, '?');
+  throw catalog::InputError(text);
 }
 
 std::string read_scan_bytes(const std::filesystem::path& path) {
