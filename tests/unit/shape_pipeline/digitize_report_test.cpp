@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // talus-digitize --report, as a user runs it: what must be on the page, and its pictures.
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 
 #include <algorithm>
 #include <cmath>
@@ -225,6 +226,37 @@ TEST(DigitizeReport, GrainsOfAPlateAreDrawnFromTheCloudWithoutItsFloor) {
   for (const PagePixels& picture : pictures) expect_drawn(picture);
   EXPECT_NE(section_of(page, "plate_02").find("grey where the source has nothing near"), std::string::npos)
       << "the hidden foot";
+}
+
+TEST(DigitizeReport, OnlyAHundredGrainsArePictured) {
+  const TemporaryFolder folder;
+  sp::write_stl(folder / "box.stl", box_mesh({0, 0, 0}, {1, 2, 3}));
+  std::string missing;
+  for (int k = 0; k < 100; ++k) missing += "no" + std::to_string(k) + ".stl ";
+  const std::string end = "box.stl --unit mm --into a.talus --report page.html";
+  EXPECT_EQ(digitize(folder, missing + end).status, 3);
+  const std::string page = read_bytes(folder / "page.html");
+  EXPECT_NE(page.find("Pictures of the first 100 of 101 grains"), std::string::npos);
+  EXPECT_TRUE(pictures_in(page).empty());
+  expect_figures(page, folder / "a.talus");
+  EXPECT_EQ(digitize(folder, missing.substr(0, missing.rfind("no")) + end).status, 3);
+  EXPECT_EQ(pictures_in(read_bytes(folder / "page.html")).size(), 3u);
+}
+
+TEST(DigitizeReport, AShapeOfAnOlderVersionIsShownWithoutItsInput) {
+  const TemporaryFolder folder;
+  sp::write_stl(folder / "box.stl", box_mesh({0, 0, 0}, {1, 2, 3}));
+  const std::string arguments = "box.stl --unit mm --into a.talus --report page.html";
+  ASSERT_EQ(digitize(folder, arguments).status, 0);
+  sqlite3* file = nullptr;
+  ASSERT_EQ(sqlite3_open((folder / "a.talus").c_str(), &file), SQLITE_OK);
+  ASSERT_EQ(sqlite3_exec(file, "UPDATE shapes SET source_frame = NULL", nullptr, nullptr, nullptr), SQLITE_OK);
+  sqlite3_close(file);
+  ASSERT_EQ(digitize(folder, arguments).status, 0);
+  const std::string page = read_bytes(folder / "page.html");
+  EXPECT_NE(page.find("Its place in its source was not kept"), std::string::npos);
+  EXPECT_EQ(pictures_in(page).size(), 1u);
+  expect_figures(page, folder / "a.talus");
 }
 
 TEST(DigitizeReport, APlaceThatCannotHoldThePageIsRefusedBeforeAnythingIsDone) {
