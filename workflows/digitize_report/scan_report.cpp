@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <functional>
 #include <map>
 
@@ -25,7 +26,7 @@ struct ScanInput {
   bool is_mesh() const { return !faces.empty(); }
   std::string caption() const {
     return is_mesh() ? "input: mesh of " + std::to_string(faces.size()) + " faces, orange where seen from within"
-                     : "input: cloud of " + std::to_string(points.size()) + " points, the far ones paler";
+                     : "input: " + std::to_string(points.size()) + " points, the far ones paler";
   }
   shape_pipeline::ColourImage drawn(const shape_pipeline::GrainView& view) const {
     return is_mesh() ? drawn_surface({points, faces}, view) : drawn_points(points, view);
@@ -33,6 +34,7 @@ struct ScanInput {
 };
 
 constexpr int kSourceSide = 480;         // [pixels]
+constexpr double kNeighbourhood = 1.3;   // over the radius of the grain: its points lie within
 constexpr double kWithoutStrays = 0.98;  // of the points; strays would leave the rest small
 
 shape_pipeline::GrainView view_of_source(const std::vector<catalog::Point>& points, int side) {
@@ -64,6 +66,12 @@ void draw(GrainPages::Grain& grain, ScanInput input) {
     return;
   }
   input.points = shape_pipeline::in_shape_frame(*shape.source_frame, std::move(input.points));
+  if (!input.is_mesh()) {  // other grains of a plate, and strays, have no part in this one
+    const double reach = kNeighbourhood * grain.view.radius;
+    std::erase_if(input.points, [&](const catalog::Point& p) {
+      return std::hypot(p[0] - grain.view.centre[0], p[1] - grain.view.centre[1], p[2] - grain.view.centre[2]) > reach;
+    });
+  }
   GrainPages::add_input(grain, input.drawn(grain.view), input.caption());
   GrainPages::add_map(grain, input.is_mesh()
                                  ? shape_pipeline::deviation_from_mesh(shape.mesh, {input.points, input.faces})
@@ -102,9 +110,9 @@ postprocess::DigitizingReport report_of(const CloudBatch& batch) {
     postprocess::SourceEntry source;
     source.name = file.filename().string();
     const ScanInput input{cloud.points, {}};
-    source.pictures.push_back(
-        page_picture(input.drawn(view_of_source(input.points, kSourceSide)),
-                     "all that grains were made from, registered and cleared: " + input.caption()));
+    source.pictures.push_back(page_picture(
+        input.drawn(view_of_source(input.points, kSourceSide)),
+        "all that grains were made from, registered and cleared: " + std::to_string(input.points.size()) + " points"));
     sources.push_back(std::move(source));
   }
   return pages.finished(std::move(sources));
