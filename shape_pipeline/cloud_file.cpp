@@ -11,6 +11,7 @@
 #include "catalog/input_error.h"
 #include "shape_pipeline/reading/pcd_file.h"
 #include "shape_pipeline/reading/ply_file.h"
+#include "shape_pipeline/reading/row_sample.h"
 #include "shape_pipeline/reading/scan_bytes.h"
 #include "shape_pipeline/reading/scan_extent.h"
 #include "shape_pipeline/surfaces/vector3.h"
@@ -22,10 +23,13 @@ constexpr double kUnitNormalSlack = 0.05;  // a normal's length may differ from 
 constexpr double kUnitNormalShare =
     0.95;  // share of points whose normal must be a unit vector for the column to be one
 
-PointCloud read_text_rows(const std::filesystem::path& path) {
-  const std::string bytes = read_scan_bytes(path);
-  PointCloud cloud;
-  TextRows rows(bytes);
+SampledCloud read_text_rows(const std::filesystem::path& path, std::size_t limit) {
+  const ScanBytes bytes(path);
+  const std::string_view text = bytes.view();
+  RowSample sample(static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')), limit);
+  SampledCloud result;
+  PointCloud& cloud = result.cloud;
+  TextRows rows(text);
   std::vector<double> numbers;
   std::size_t width = 0;
   while (rows.next()) {
@@ -39,10 +43,11 @@ PointCloud read_text_rows(const std::filesystem::path& path) {
                   "expected " + std::to_string(width) + " numbers as in the rows above, found " +
                       std::to_string(numbers.size()),
                   "the file may be truncated here; copy or export it again");
+    if (!sample.keeps(result.total++)) continue;
     cloud.points.push_back({numbers[0], numbers[1], numbers[2]});
     if (width >= 6) cloud.normals.push_back({numbers[3], numbers[4], numbers[5]});
   }
-  return cloud;
+  return result;
 }
 
 bool is_finite(const Point& p) { return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]); }
@@ -69,22 +74,36 @@ bool normals_are_usable(PointCloud& cloud) {
   return true;
 }
 
+void note_what_was_left_out(CloudFile& file) {
+  if (file.left_out_points > 0)
+    file.notes.push_back({"subsampled_points", true, static_cast<double>(file.left_out_points),
+                          "points of a very large file left out: one in each run of them is kept, at random"});
+  if (file.dropped_nan_points > 0)
+    file.notes.push_back({"dropped_nan_points", true, static_cast<double>(file.dropped_nan_points),
+                          "points with a coordinate that is no number dropped"});
+  if (file.had_unusable_normals)
+    file.notes.push_back({"given_normals", false, 0, "the normal columns hold no unit vectors: estimated instead"});
+}
+
 }  // namespace
 
 CloudFile read_cloud(const std::filesystem::path& path, const CloudReading& reading) {
   CloudFile file;
+  SampledCloud read;
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
   if (ending == ".ply") {
-    PlyContents contents = read_ply(path);
-    file.cloud = {std::move(contents.points), std::move(contents.normals)};
+    PlyContents contents = read_ply(path, reading.point_limit);
+    read = {{std::move(contents.points), std::move(contents.normals)}, contents.vertex_count};
   } else if (ending == ".pcd") {
-    file.cloud = read_pcd(path);
+    read = read_pcd(path, reading.point_limit);
   } else {
-    file.cloud = read_text_rows(path);
+    read = read_text_rows(path, reading.point_limit);
   }
 
+  file.cloud = std::move(read.cloud);
   const std::size_t total = file.cloud.points.size();
+  file.left_out_points = read.total - total;
   file.dropped_nan_points = remove_nan_points(file.cloud);
   if (file.dropped_nan_points > 0 && !reading.drops_nan_points)
     refuse_file(path, "points",
@@ -100,6 +119,7 @@ CloudFile read_cloud(const std::filesystem::path& path, const CloudReading& read
     file.cloud.normals.clear();
     file.had_unusable_normals = true;
   }
+  note_what_was_left_out(file);
   refuse_flat_scan(path, file.cloud.points);
   for (Point& point : file.cloud.points) point = scaled(point, reading.metres_per_unit);
   refuse_impossible_size(path, file.cloud.points);

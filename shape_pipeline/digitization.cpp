@@ -34,12 +34,7 @@ Solid solid_from_cloud(const std::filesystem::path& scan, const DigitizationOpti
   reading.drops_nan_points = options.drops_nan_points;
   const CloudFile file = read_cloud(scan, reading);
   Reconstruction reconstruction = reconstruct_surface(file.cloud, options.reconstruction);
-  if (file.dropped_nan_points > 0)
-    reconstruction.checks.push_back({"dropped_nan_points", true, static_cast<double>(file.dropped_nan_points),
-                                     "points with a coordinate that is no number dropped"});
-  if (file.had_unusable_normals)
-    reconstruction.checks.push_back(
-        {"given_normals", false, 0, "the normal columns hold no unit vectors: estimated instead"});
+  reconstruction.checks.insert(reconstruction.checks.end(), file.notes.begin(), file.notes.end());
   return {std::move(reconstruction.mesh), std::move(reconstruction.checks), std::move(reconstruction.refusal), ""};
 }
 

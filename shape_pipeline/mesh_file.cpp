@@ -37,7 +37,7 @@ catalog::TriangleMesh read_ply_mesh(const std::filesystem::path& path) {
   return mesh;
 }
 
-catalog::TriangleMesh read_shape_table(const std::filesystem::path& path, const std::string& bytes) {
+catalog::TriangleMesh read_shape_table(const std::filesystem::path& path, std::string_view bytes) {
   catalog::TriangleMesh mesh;
   TextRows rows(bytes);
   while (rows.next()) {
@@ -71,7 +71,8 @@ catalog::TriangleMesh read_shape_table(const std::filesystem::path& path, const 
 catalog::TriangleMesh read_mesh(const std::filesystem::path& path, double metres_per_unit) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  const std::string bytes = read_scan_bytes(path);
+  const ScanBytes file(path);
+  const std::string_view bytes = file.view();
   catalog::TriangleMesh mesh;
   if (ending == ".ply") {
     mesh = read_ply_mesh(path);

@@ -3,16 +3,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
+#include <vector>
 
 #include "catalog/mass_properties.h"
+#include "shape_pipeline/families/spherical_harmonics.h"
 #include "shape_pipeline/mesh_topology.h"
+#include "shape_pipeline/shape_families.h"
 #include "shape_pipeline/surfaces/convex_hull.h"
 #include "shape_pipeline/surfaces/corner_measure.h"
 #include "shape_pipeline/surfaces/enclosing_sphere.h"
 #include "shape_pipeline/surfaces/hull_width.h"
 #include "shape_pipeline/surfaces/inscribed_sphere.h"
 #include "shape_pipeline/surfaces/minimum_box.h"
+#include "shape_pipeline/surfaces/surface_roughness.h"
 #include "shape_pipeline/surfaces/vector3.h"
 
 namespace shape_pipeline {
@@ -90,18 +95,47 @@ Descriptors sphere_descriptors(const catalog::TriangleMesh& mesh, const catalog:
   return found;
 }
 
+constexpr int kHarmonicDegree = 15;
+constexpr double kPatchRadius = 0.2;  // of roughness over the radius of the largest sphere inside
+
+Descriptors roughness_descriptors(const catalog::TriangleMesh& mesh, double inscribed) {
+  const auto found = surface_roughness(mesh, kPatchRadius * inscribed);
+  if (!found) return {};
+  return {{"roughness_patch_radius", found->patch_radius},
+          {"roughness_sa_iso25178", found->sa},
+          {"roughness_sq_iso25178", found->sq},
+          {"roughness_ssk_iso25178", found->ssk},
+          {"roughness_sku_iso25178", found->sku},
+          {"roughness_sdq_iso25178", found->sdq}};
+}
+
+/// D_n / D_0; none for solids that are not star-shaped about their centroid.
+Descriptors harmonic_descriptors(catalog::TriangleMesh mesh, const Point& centroid) {
+  for (Point& vertex : mesh.vertices) vertex = subtract(vertex, centroid);
+  if (!is_star_shaped(mesh)) return {};
+  const std::vector<double> amplitudes = harmonic_amplitudes(mesh, kHarmonicDegree);
+  Descriptors found;
+  for (std::size_t n = 2; n < amplitudes.size(); ++n) {
+    char name[64];
+    std::snprintf(name, sizeof name, "harmonic_d%02zu_over_d00_garboczi", n);
+    found[name] = amplitudes[n] / amplitudes[0];
+  }
+  return found;
+}
+
 }  // namespace
 
 std::map<std::string, double> shape_descriptors(const catalog::TriangleMesh& mesh) {
   constexpr double pi = std::numbers::pi;
   const double volume = signed_volume(mesh), area = surface_area(mesh);
+  const catalog::MassProperties solid = catalog::mass_properties(mesh);
   const catalog::TriangleMesh hull = convex_hull(mesh.vertices);
   const double hull_volume = signed_volume(hull);
   Point axis = minimum_volume_box(hull).extent;
   std::sort(axis.begin(), axis.end());
   const auto [s, i, l] = axis;
   const auto [f3, f2, f1] = surface_orientation_eigenvalues(mesh, area);
-  const auto [ellipsoid_s, ellipsoid_i, ellipsoid_l] = inertia_ellipsoid_axes(catalog::mass_properties(mesh));
+  const auto [ellipsoid_s, ellipsoid_i, ellipsoid_l] = inertia_ellipsoid_axes(solid);
   Descriptors found{{"volume", volume},
                     {"surface_area", area},
                     {"volume_hull", hull_volume},
@@ -124,6 +158,8 @@ std::map<std::string, double> shape_descriptors(const catalog::TriangleMesh& mes
                     {"mean_edge_length", mean_edge_length(mesh)}};
   found.merge(form_descriptors(axis));
   found.merge(sphere_descriptors(mesh, hull));
+  found.merge(roughness_descriptors(mesh, found.at("radius_inscribed")));
+  found.merge(harmonic_descriptors(mesh, solid.centroid));
   return found;
 }
 

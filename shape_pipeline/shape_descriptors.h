@@ -37,6 +37,10 @@ namespace shape_pipeline {
 ///   roundness_corner_radius, angularity_corner_radius, corner_area_share, corner_scale [-, -, -, m]
 ///                                                  see surfaces/corner_measure.h; left out for thin solids
 ///   corner_scale_over_edge                         corner_scale / mean_edge_length: below 1 the mesh is too coarse
+///   roughness_sa_, _sq_, _ssk_, _sku_, _sdq_iso25178, roughness_patch_radius
+///                                                  see surfaces/surface_roughness.h [m, m, -, -, -, m]
+///   harmonic_d02_ to _d15_over_d00_garboczi        see families/spherical_harmonics.h; left out where the solid is not
+///                                                  star-shaped about its centroid
 ///   sieve_size_second_axis                         I: the square mesh that lets the particle pass end on [m]
 ///   face_count, mean_edge_length                   resolution of the mesh, which A depends on [-, m]
 std::map<std::string, double> shape_descriptors(const catalog::TriangleMesh& mesh);

@@ -188,8 +188,7 @@ std::vector<std::filesystem::path> write_virtual_scans(const std::filesystem::pa
 std::map<std::string, ScanTruth> read_truth(const std::filesystem::path& path) {
   constexpr char kExpectation[] =
       "expected {\"scans\": [{\"file\": \"rock_01.ply\", \"volume\": [m3], \"surface_area\": [m2]}, ...]}";
-  const std::string bytes = read_scan_bytes(path);
-  const nlohmann::json truth = nlohmann::json::parse(bytes, nullptr, false);
+  const nlohmann::json truth = nlohmann::json::parse(ScanBytes(path).view(), nullptr, false);
   if (truth.is_discarded() || !truth.is_object() || !truth.contains("scans") || !truth["scans"].is_array())
     refuse_file(path, "", kExpectation, "write the known volumes and areas in SI units");
   std::map<std::string, ScanTruth> result;

@@ -84,7 +84,10 @@ CloudBatch::Grain CloudBatch::merged(const Job& job) const {
     shape_pipeline::CloudReading reading;
     reading.metres_per_unit = digitization_.metres_per_unit;
     reading.drops_nan_points = digitization_.drops_nan_points;
-    PointCloud cloud = shape_pipeline::read_cloud(file, reading).cloud;
+    shape_pipeline::CloudFile read = shape_pipeline::read_cloud(file, reading);
+    whole.checks.insert(whole.checks.end(), read.notes.begin(), read.notes.end());
+    if (const std::string note = sampling_note(file, read.notes); !note.empty()) whole.notes.push_back(note);
+    PointCloud cloud = std::move(read.cloud);
     if (settings_.removes_plane) {
       shape_pipeline::ClearedCloud cleared = shape_pipeline::without_floor(cloud, file.string());
       cloud = std::move(cleared.cloud);
@@ -118,6 +121,7 @@ void CloudBatch::digitize(const Job& job) {
                                        options_text(options_.settings, settings_)};
   if (is_done(job, provenance)) return;
   const Grain whole = merged(job);
+  for (const std::string& note : whole.notes) progress_.note(note);
   const GrainSeries series{job.name, kGrainDigits};
   if (!settings_.is_separated) {
     remove_stale_grains(catalog_, series, 0, provenance, progress_);
@@ -131,7 +135,7 @@ void CloudBatch::digitize(const Job& job) {
   catalog_.forget_rejected(job.name);
   std::size_t number = 0;
   for (const PointCloud& cloud : found.grains) {
-    Grain grain{cloud, whole.checks};
+    Grain grain{cloud, whole.checks, {}};
     grain.checks.push_back({kGrainsCheck, true, static_cast<double>(found.grains.size()), "grains of this cloud"});
     grain.checks.push_back({"grain_gap", true, found.gap, "distance that separates two grains [m]"});
     store(job, series.name(++number), provenance, grain);

@@ -47,6 +47,7 @@ class CloudBatch {
   struct Grain {
     shape_pipeline::PointCloud cloud;
     std::vector<catalog::Check> checks;
+    std::vector<std::string> notes;  // for who runs the batch
   };
   void digitize(const Job& job);
   bool is_done(const Job& job, const catalog::Provenance& provenance);

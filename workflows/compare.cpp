@@ -87,7 +87,8 @@ std::vector<Row> rows(const catalog::ShapeRecord& first, const catalog::ShapeRec
   std::vector<Row> table{{"volume", first.mass_properties.volume, second.mass_properties.volume}};
   for (const char* name :
        {"surface_area", "sphericity_wadell", "convexity_volume_ratio", "axis_short_obb", "axis_intermediate_obb",
-        "axis_long_obb", "roundness_corner_radius", "angularity_corner_radius"}) {
+        "axis_long_obb", "roundness_corner_radius", "angularity_corner_radius", "roughness_sa_iso25178",
+        "roughness_sq_iso25178", "roughness_sdq_iso25178"}) {
     const auto a = first.descriptors.find(name), b = second.descriptors.find(name);
     if (a != first.descriptors.end() && b != second.descriptors.end()) table.push_back({name, a->second, b->second});
   }

@@ -144,6 +144,15 @@ bool have_one_source(const catalog::Provenance& a, const catalog::Provenance& b)
   return a.source_sha256 == b.source_sha256 && a.options == b.options && a.tool_version == b.tool_version;
 }
 
+std::string sampling_note(const fs::path& scan, const std::vector<catalog::Check>& checks) {
+  for (const catalog::Check& check : checks) {
+    char count[32];
+    std::snprintf(count, sizeof count, "%.0f ", check.figure);
+    if (check.name == "subsampled_points") return scan.string() + ": " + count + check.detail;
+  }
+  return "";
+}
+
 // SQLite takes an empty file for a new database, but it may be anything of the user's.
 catalog::ShapeCatalog open_catalog(const fs::path& path) {
   if (fs::is_regular_file(path) && fs::file_size(path) == 0)
@@ -221,6 +230,7 @@ DigitizedScan DigitizeBatch::stored(std::size_t s, Prepared&& prepared) {
   } else {
     prepared.shape->name = name;
     prepared.shape->provenance = prepared.provenance;
+    if (const std::string note = sampling_note(scans_[s], prepared.shape->checks); !note.empty()) progress_.note(note);
     catalog_->store_shape(*prepared.shape);
   }
   outcome.summary = catalog_->summary(*catalog_->find(name));

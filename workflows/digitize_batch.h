@@ -37,6 +37,9 @@ struct DigitizedScan {
   bool is_bad() const { return status == "rejected" || status == "missing"; }
 };
 
+/// "rock.ply: ..." for a shape of whose scan a sample was read; else empty.
+std::string sampling_note(const std::filesystem::path& scan, const std::vector<catalog::Check>& checks);
+
 /// What the scans are digitised with. Throws UsageError for settings that cannot be.
 shape_pipeline::DigitizationOptions digitization_options(const ScanSettings& settings);
 

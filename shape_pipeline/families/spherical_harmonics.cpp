@@ -4,7 +4,9 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "shape_pipeline/surfaces/vector3.h"
@@ -12,17 +14,30 @@
 namespace shape_pipeline {
 namespace {
 
-/// Real harmonics at a direction: (degree + 1)^2 values, orthonormal over the sphere.
+/// Real harmonics at a direction: (degree + 1)^2 values, orthonormal over the sphere, by the recurrences of the
+/// normalised Legendre functions (Holmes & Featherstone 2002, eqs. 11 and 13).
 Eigen::VectorXd harmonics(const Point& direction, int degree) {
   Eigen::VectorXd values((degree + 1) * (degree + 1));
-  const double polar = std::acos(std::clamp(direction[2], -1.0, 1.0)), azimuth = std::atan2(direction[1], direction[0]);
-  for (int n = 0; n <= degree; ++n)
-    for (int m = 0; m <= n; ++m) {
-      const double legendre = std::sph_legendre(static_cast<unsigned>(n), static_cast<unsigned>(m), polar);
-      const double both = m == 0 ? 1 : std::sqrt(2.0);
-      values[n * (n + 1) + m] = both * legendre * std::cos(m * azimuth);
-      if (m > 0) values[n * (n + 1) - m] = both * legendre * std::sin(m * azimuth);
+  const double cosine = std::clamp(direction[2], -1.0, 1.0), sine = std::sqrt(1 - cosine * cosine);
+  const double azimuth = std::atan2(direction[1], direction[0]);
+  double sectoral = std::sqrt(1 / (4 * std::numbers::pi));  // of degree m
+  for (int m = 0; m <= degree; ++m) {
+    if (m > 0) sectoral *= std::sqrt((2 * m + 1) / (2.0 * m)) * sine;
+    const double both = m == 0 ? 1 : std::sqrt(2.0);
+    const double along = both * std::cos(m * azimuth), across = both * std::sin(m * azimuth);
+    double before = 0, now = sectoral;
+    for (int n = m; n <= degree; ++n) {
+      if (n > m) {
+        const double nn = n * n, mm = m * m, last = (n - 1) * (n - 1);
+        const double next =
+            std::sqrt((4 * nn - 1) / (nn - mm)) * (cosine * now - std::sqrt((last - mm) / (4 * last - 1)) * before);
+        before = now;
+        now = next;
+      }
+      values[n * (n + 1) + m] = along * now;
+      if (m > 0) values[n * (n + 1) - m] = across * now;
     }
+  }
   return values;
 }
 
@@ -40,7 +55,44 @@ std::vector<double> solid_angles(const catalog::TriangleMesh& mesh) {
   return angles;
 }
 
+constexpr double kLongestEdge = 0.1;  // of a piece of a face over its distance: a quarter of a wave of degree 15
+
+using Corners = std::array<Point, 3>;
+
+/// Adds the integral of r Y over the solid angle of a flat triangle, in three points (degree 2), of its quarters where
+/// it is large.
+void add_integral(const Corners& corners, int degree, Eigen::VectorXd& sum) {
+  double longest = 0, nearest = norm(corners[0]);
+  for (std::size_t c = 0; c < 3; ++c) {
+    longest = std::max(longest, distance(corners[c], corners[(c + 1) % 3]));
+    nearest = std::min(nearest, norm(corners[c]));
+  }
+  if (longest > kLongestEdge * nearest) {
+    const auto middle = [&](std::size_t a, std::size_t b) { return scaled(add(corners[a], corners[b]), 0.5); };
+    const Point ab = middle(0, 1), bc = middle(1, 2), ca = middle(2, 0);
+    for (const Corners& quarter :
+         {Corners{corners[0], ab, ca}, {ab, corners[1], bc}, {ca, bc, corners[2]}, {ab, bc, ca}})
+      add_integral(quarter, degree, sum);
+    return;
+  }
+  const Point area = scaled(cross(subtract(corners[1], corners[0]), subtract(corners[2], corners[0])), 0.5);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Point p = add(scaled(corners[c], 2.0 / 3), scaled(add(corners[(c + 1) % 3], corners[(c + 2) % 3]), 1.0 / 6));
+    const double squared = dot(p, p);  // solid angle (p . area) / r^3, times r
+    sum += dot(p, area) / (3 * squared) * harmonics(scaled(p, 1 / std::sqrt(squared)), degree);
+  }
+}
+
 }  // namespace
+
+std::vector<double> harmonic_amplitudes(const catalog::TriangleMesh& mesh, int degree) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero((degree + 1) * (degree + 1));
+  for (const catalog::Triangle& face : mesh.faces)
+    add_integral({mesh.vertices[face[0]], mesh.vertices[face[1]], mesh.vertices[face[2]]}, degree, sum);
+  std::vector<double> amplitudes;
+  for (int n = 0; n <= degree; ++n) amplitudes.push_back(sum.segment(n * n, 2 * n + 1).norm());
+  return amplitudes;
+}
 
 catalog::TriangleMesh harmonic_low_pass(const catalog::TriangleMesh& mesh, int degree) {
   const std::vector<double> weights = solid_angles(mesh);

@@ -30,7 +30,7 @@ void refuse_blurred(const std::filesystem::path& path, const catalog::TriangleMe
 
 }  // namespace
 
-catalog::TriangleMesh read_with_assimp(const std::filesystem::path& path, const std::string& bytes,
+catalog::TriangleMesh read_with_assimp(const std::filesystem::path& path, std::string_view bytes,
                                        const std::string& format) {
   Assimp::Importer importer;
   const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(),

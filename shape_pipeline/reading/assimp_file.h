@@ -10,7 +10,7 @@ namespace shape_pipeline {
 
 /// All triangles of a file as assimp reads them, in the file's unit; `format` is "stl", "obj" or "off". Throws
 /// InputError if assimp fails, or if its single precision would blur a mesh that lies far from the origin.
-catalog::TriangleMesh read_with_assimp(const std::filesystem::path& path, const std::string& bytes,
+catalog::TriangleMesh read_with_assimp(const std::filesystem::path& path, std::string_view bytes,
                                        const std::string& format);
 
 }  // namespace shape_pipeline

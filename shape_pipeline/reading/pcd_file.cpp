@@ -5,6 +5,7 @@
 #include <pcl/console/print.h>
 #include <pcl/io/pcd_io.h>
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -120,31 +121,61 @@ void check_body(const std::filesystem::path& path, const PcdHeader& header, std:
   }
 }
 
-/// Values of one field, in double precision; nullopt if there is no such field of floating-point type.
-std::optional<std::vector<double>> column(const pcl::PCLPointCloud2& cloud, const std::string& name) {
+/// A floating-point field of a cloud.
+struct Column {
+  std::size_t offset = 0;
+  bool is_double = false;
+
+  double value(const pcl::PCLPointCloud2& cloud, std::size_t row) const {
+    const std::uint8_t* const address = &cloud.data[row * cloud.point_step + offset];
+    if (!is_double) {
+      float single = 0;
+      std::memcpy(&single, address, sizeof single);
+      return single;
+    }
+    double number = 0;
+    std::memcpy(&number, address, sizeof number);
+    return number;
+  }
+};
+
+std::optional<Column> column(const pcl::PCLPointCloud2& cloud, const std::string& name) {
   for (const pcl::PCLPointField& field : cloud.fields) {
     if (field.name != name) continue;
     const bool is_double = field.datatype == pcl::PCLPointField::FLOAT64;
     if (!is_double && field.datatype != pcl::PCLPointField::FLOAT32) return std::nullopt;
-    std::vector<double> values(static_cast<std::size_t>(cloud.width) * cloud.height);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const std::uint8_t* address = &cloud.data[i * cloud.point_step + field.offset];
-      float single = 0;
-      if (is_double)
-        std::memcpy(&values[i], address, sizeof(double));
-      else
-        std::memcpy(&single, address, sizeof(float)), values[i] = single;
-    }
-    return values;
+    return Column{field.offset, is_double};
   }
   return std::nullopt;
 }
 
+/// The rows of three fields that the sample keeps; none if a field is not there.
+std::vector<catalog::Point> columns(const pcl::PCLPointCloud2& cloud, const std::array<const char*, 3>& names,
+                                    RowSample sample) {
+  std::array<Column, 3> found;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::optional<Column> one = column(cloud, names[i]);
+    if (!one) return {};
+    found[i] = *one;
+  }
+  std::vector<catalog::Point> rows;
+  const std::size_t count = static_cast<std::size_t>(cloud.width) * cloud.height;
+  for (std::size_t row = 0; row < count; ++row)
+    if (sample.keeps(row))
+      rows.push_back({found[0].value(cloud, row), found[1].value(cloud, row), found[2].value(cloud, row)});
+  return rows;
+}
+
 }  // namespace
 
-PointCloud read_pcd(const std::filesystem::path& path) {
-  const std::string bytes = read_scan_bytes(path);
-  check_body(path, parse_header(path, bytes), bytes);
+SampledCloud read_pcd(const std::filesystem::path& path, std::size_t point_limit) {
+  std::size_t total = 0;
+  {
+    const ScanBytes bytes(path);
+    const PcdHeader header = parse_header(path, bytes.view());
+    check_body(path, header, bytes.view());
+    total = header.points;
+  }
   pcl::PCLPointCloud2 stored;
   pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);  // what is wrong is said below, with the file's name
   bool is_read = false;
@@ -154,18 +185,11 @@ PointCloud read_pcd(const std::filesystem::path& path) {
   }
   if (!is_read) refuse_file(path, "", "PCL cannot read this PCD file", kExportAgain);
 
-  const auto columns = [&](const char* a, const char* b, const char* c) {
-    std::vector<catalog::Point> rows;
-    const auto x = column(stored, a), y = column(stored, b), z = column(stored, c);
-    if (!x || !y || !z) return rows;
-    for (std::size_t i = 0; i < x->size(); ++i) rows.push_back({(*x)[i], (*y)[i], (*z)[i]});
-    return rows;
-  };
-  PointCloud cloud;
-  cloud.points = columns("x", "y", "z");
-  if (cloud.points.empty()) refuse_file(path, "header", "expected x, y and z of type F", kExportAgain);
-  cloud.normals = columns("normal_x", "normal_y", "normal_z");
-  return cloud;
+  const RowSample sample(total, point_limit);
+  SampledCloud result{{columns(stored, {"x", "y", "z"}, sample), {}}, total};
+  if (result.cloud.points.empty()) refuse_file(path, "header", "expected x, y and z of type F", kExportAgain);
+  result.cloud.normals = columns(stored, {"normal_x", "normal_y", "normal_z"}, sample);
+  return result;
 }
 
 }  // namespace shape_pipeline

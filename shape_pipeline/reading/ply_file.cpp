@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "shape_pipeline/reading/row_sample.h"
 #include "shape_pipeline/reading/scan_bytes.h"
 
 namespace shape_pipeline {
@@ -224,22 +225,25 @@ void check_vertex_columns(const std::filesystem::path& path, const Header& heade
 }  // namespace
 
 std::size_t ply_face_count(const std::filesystem::path& path) {
-  const Header header = parse_header(path, read_scan_bytes(path));
+  const Header header = parse_header(path, ScanBytes(path).view());
   std::size_t faces = 0;
   for (const Element& element : header.elements)
     if (element.name == "face") faces += element.count;
   return faces;
 }
 
-PlyContents read_ply(const std::filesystem::path& path) {
-  const std::string bytes = read_scan_bytes(path);
-  const Header header = parse_header(path, bytes);
+PlyContents read_ply(const std::filesystem::path& path, std::size_t vertex_limit) {
+  const ScanBytes bytes(path);
+  const Header header = parse_header(path, bytes.view());
   bool has_normals = false;
   check_vertex_columns(path, header, has_normals);
 
   PlyContents contents;
-  BodyReader body(path, header, bytes);
-  for (const Element& element : header.elements)
+  BodyReader body(path, header, bytes.view());
+  for (const Element& element : header.elements) {
+    const bool is_vertex = element.name == "vertex";
+    RowSample sample(element.count, vertex_limit);
+    if (is_vertex) contents.vertex_count = element.count;
     for (std::size_t row = 0; row < element.count; ++row) {
       double column[6] = {};
       for (const Property& property : element.properties) {
@@ -258,11 +262,12 @@ PlyContents read_ply(const std::filesystem::path& path) {
         if (element.name == "face" && (property.name == "vertex_indices" || property.name == "vertex_index"))
           contents.faces.push_back(std::move(list));
       }
-      if (element.name == "vertex") {
+      if (is_vertex && sample.keeps(row)) {
         contents.points.push_back({column[0], column[1], column[2]});
         if (has_normals) contents.normals.push_back({column[3], column[4], column[5]});
       }
     }
+  }
   if (body.bytes_left() > 0)
     refuse_file(path, "end of file", std::to_string(body.bytes_left()) + " bytes more than the header declares",
                 kExportAgain);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "shape_pipeline/reading/scan_bytes.h"
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <system_error>
 
 #include "catalog/input_error.h"
@@ -26,19 +30,26 @@ void refuse_file(const std::filesystem::path& path, const std::string& place, co
   throw catalog::InputError(text);
 }
 
-std::string read_scan_bytes(const std::filesystem::path& path) {
+ScanBytes::ScanBytes(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error))
     refuse_file(path, "", "there is no such file", "check the path of the scan");
   if (std::filesystem::is_directory(path, error))
     refuse_file(path, "", "expected a scan file, found a folder", "name a file in it");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) refuse_file(path, "", "cannot be opened for reading", "check its permissions");
-  std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (stream.bad()) refuse_file(path, "", "reading failed", "check the disk and copy the file again");
-  if (bytes.empty()) refuse_file(path, "", "the file is empty", "export the scan again");
-  return bytes;
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) refuse_file(path, "", "cannot be opened for reading", "check its permissions");
+  struct ::stat state = {};
+  const bool has_size = ::fstat(file, &state) == 0;
+  size_ = has_size ? static_cast<std::size_t>(state.st_size) : 0;
+  void* const mapped = size_ > 0 ? ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file, 0) : MAP_FAILED;
+  ::close(file);
+  if (has_size && size_ == 0) refuse_file(path, "", "the file is empty", "export the scan again");
+  if (mapped == MAP_FAILED) refuse_file(path, "", "reading failed", "check the disk and copy the file again");
+  ::madvise(mapped, size_, MADV_SEQUENTIAL);
+  data_ = static_cast<const char*>(mapped);
 }
+
+ScanBytes::~ScanBytes() { ::munmap(const_cast<char*>(data_), size_); }
 
 bool TextRows::next() {
   while (!rest_.empty()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -12,8 +13,21 @@ namespace shape_pipeline {
 [[noreturn]] void refuse_file(const std::filesystem::path& path, const std::string& place, const std::string& finding,
                               const std::string& remedy);
 
-/// The file's bytes; throws InputError if it is missing, no plain file, unreadable or empty.
-std::string read_scan_bytes(const std::filesystem::path& path);
+/// A file's bytes, mapped into memory: what is not looked at takes none, and the system may drop what was. Throws
+/// InputError if it is missing, no plain file, unreadable or empty.
+class ScanBytes {
+ public:
+  explicit ScanBytes(const std::filesystem::path& path);
+  ~ScanBytes();
+  ScanBytes(const ScanBytes&) = delete;
+  ScanBytes& operator=(const ScanBytes&) = delete;
+
+  std::string_view view() const { return {data_, size_}; }
+
+ private:
+  const char* data_ = nullptr;
+  std::size_t size_ = 0;
+};
 
 /// Steps through the lines of a text, with their numbers.
 class TextRows {

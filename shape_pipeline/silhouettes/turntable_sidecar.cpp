@@ -24,7 +24,7 @@ class Sidecar {
  public:
   explicit Sidecar(const std::filesystem::path& path) : path_(path) {
     try {
-      values_ = json::parse(read_scan_bytes(path));
+      values_ = json::parse(ScanBytes(path).view());
     } catch (const json::parse_error& error) {
       refuse_file(path, "byte " + std::to_string(error.byte), "is no JSON", kExample);
     } catch (const json::out_of_range&) {

@@ -21,7 +21,7 @@ class Sidecar {
     if (!std::filesystem::exists(path))
       refuse_file(path, "", "a RAW needs this file beside it, which is not there", kExample);
     try {
-      values_ = json::parse(read_scan_bytes(path));
+      values_ = json::parse(ScanBytes(path).view());
     } catch (const json::parse_error& error) {
       refuse_file(path, "byte " + std::to_string(error.byte), "is no JSON", kExample);
     } catch (const json::out_of_range&) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <iterator>
 #include <ostream>
+#include <set>
 #include <string>
 
 #include "catalog/input_error.h"
@@ -197,6 +198,40 @@ TEST(CloudFile, DropsNanPointsOnlyWhenAsked) {
   const CloudFile file = read_cloud(folder / "n.xyz", reading);
   EXPECT_EQ(file.cloud.points.size(), 100u);
   EXPECT_EQ(file.dropped_nan_points, 2u);
+}
+
+TEST(CloudFile, OfAVeryLargeOneASampleIsKeptInOrderAndSaid) {
+  const TemporaryFolder folder;
+  const std::string rows = sphere_rows(1000, true);
+  write_text(folder / "n.xyz", rows);
+  write_text(folder / "n.ply",
+             "ply\nformat ascii 1.0\nelement vertex 1000\nproperty double x\nproperty double y\nproperty double z\n"
+             "property double nx\nproperty double ny\nproperty double nz\nend_header\n" +
+                 rows);
+  write_text(folder / "n.pcd",
+             "VERSION 0.7\nFIELDS x y z normal_x normal_y normal_z\nSIZE 8 8 8 8 8 8\nTYPE F F F F F F\n"
+             "COUNT 1 1 1 1 1 1\nWIDTH 1000\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1000\nDATA ascii\n" +
+                 rows);
+  const PointCloud whole = read_cloud(folder / "n.xyz", {}).cloud;
+  CloudReading reading;
+  reading.point_limit = 130;
+  for (const char* name : {"n.xyz", "n.ply", "n.pcd"}) {
+    const CloudFile file = read_cloud(folder / name, reading);
+    ASSERT_EQ(file.cloud.points.size(), 125u) << name << ": one of every eight";
+    EXPECT_EQ(file.left_out_points, 875u) << name;
+    ASSERT_EQ(file.notes.size(), 1u);
+    EXPECT_EQ(file.notes[0].name, "subsampled_points");
+    EXPECT_EQ(file.notes[0].figure, 875);
+    std::set<std::size_t> places;
+    for (std::size_t block = 0; block < 125; ++block) {
+      const auto begin = whole.points.begin() + static_cast<std::ptrdiff_t>(8 * block);
+      const auto found = std::find(begin, begin + 8, file.cloud.points[block]);
+      ASSERT_NE(found, begin + 8) << name << ", block " << block;
+      EXPECT_EQ(file.cloud.normals[block], whole.normals[static_cast<std::size_t>(found - whole.points.begin())]);
+      places.insert(static_cast<std::size_t>(found - begin));
+    }
+    EXPECT_EQ(places.size(), 8u) << "at random in its block";
+  }
 }
 
 struct BadFile {

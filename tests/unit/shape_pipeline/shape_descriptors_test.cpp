@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "shape_pipeline/families/spherical_harmonics.h"
+#include "shape_pipeline/surfaces/surface_roughness.h"
 #include "tests/support/sample_meshes.h"
 #include "tests/support/sample_shapes.h"
 
@@ -123,6 +125,90 @@ TEST(ShapeDescriptors, ConvexityOfANotchedBlock) {
   EXPECT_NEAR(d["convexity_volume_ratio"], 3 / 3.5, 1e-12);
   EXPECT_NEAR(d["radius_inscribed"], 0.5, 1e-9);  // the height of 1 holds it in the inner corner
   EXPECT_NEAR(d["feret_min"], 1, 1e-12);
+}
+
+/// A slab of n by n squares cut in two on either side, z = +-(1 + e sin kx sin ky), closed by four walls.
+catalog::TriangleMesh wavy_slab(int n, double width, double e, double k) {
+  catalog::TriangleMesh mesh;
+  for (const double side : {1.0, -1.0})
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) {
+        const double x = width * i / n, y = width * j / n;
+        mesh.vertices.push_back({x, y, side * (1 + e * std::sin(k * x) * std::sin(k * y))});
+      }
+  const auto at = [n](int side, int i, int j) { return (side * (n + 1) + i) * (n + 1) + j; };
+  const auto add = [&](int a, int b, int c, int d) {
+    mesh.faces.push_back({a, b, c});
+    mesh.faces.push_back({a, c, d});
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      add(at(0, i, j), at(0, i + 1, j), at(0, i + 1, j + 1), at(0, i, j + 1));
+      add(at(1, i, j), at(1, i, j + 1), at(1, i + 1, j + 1), at(1, i + 1, j));
+    }
+  for (int i = 0; i < n; ++i) {
+    add(at(1, i, 0), at(1, i + 1, 0), at(0, i + 1, 0), at(0, i, 0));
+    add(at(1, i + 1, n), at(1, i, n), at(0, i, n), at(0, i + 1, n));
+    add(at(1, 0, i + 1), at(1, 0, i), at(0, 0, i), at(0, 0, i + 1));
+    add(at(1, n, i), at(1, n, i + 1), at(0, n, i + 1), at(0, n, i));
+  }
+  return mesh;
+}
+
+// Means of s = sin kx sin ky: s^2 1/4, s^4 9/64, |s| 4 / pi^2, |grad s|^2 k^2 / 2. Six waves in a patch lose some per
+// cent to its polynomial.
+TEST(SurfaceRoughness, OfAWaveIsThatOfItsFormulas) {
+  const double e = 0.01, k = 6 * pi;
+  const auto found = surface_roughness(wavy_slab(180, 8, e, k), 1);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->sq, e / 2, 0.03 * e / 2);
+  EXPECT_NEAR(found->sa, 4 * e / (pi * pi), 0.03 * 4 * e / (pi * pi));
+  EXPECT_NEAR(found->sdq, e * k / std::sqrt(2.0), 0.05 * e * k / std::sqrt(2.0));
+  EXPECT_NEAR(found->sku, 2.25, 0.1);
+  EXPECT_NEAR(found->ssk, 0, 0.1);
+}
+
+TEST(SurfaceRoughness, FormAndRidgesAreNone) {
+  const auto sphere = surface_roughness(uv_sphere(1, 120), 0.2);
+  ASSERT_TRUE(sphere);
+  EXPECT_LT(sphere->sq, 1.5 * 0.03 * std::pow(0.2, 4));
+  auto box = shape_descriptors(moved(box_mesh({0, 0, 0}, {1, 1, 1}), 1, {3, -2, 1}));
+  EXPECT_NEAR(box["roughness_sq_iso25178"], 0, 1e-12);
+  EXPECT_NEAR(box["roughness_sdq_iso25178"], 0, 1e-12);
+  EXPECT_NEAR(box["roughness_patch_radius"], 0.1, 1e-9);
+}
+
+/// The unit sphere with the radius 1 + e P_3(z).
+catalog::TriangleMesh pear(double e, int rings) {
+  catalog::TriangleMesh mesh = uv_sphere(1, rings);
+  for (auto& p : mesh.vertices) {
+    const double r = 1 + e * (5 * p[2] * p[2] * p[2] - 3 * p[2]) / 2;
+    for (double& x : p) x *= r;
+  }
+  return mesh;
+}
+
+// Y_30 = sqrt(7 / 4 pi) P_3, so that a_30 = e sqrt(4 pi / 7); what is left is the facets' share.
+TEST(HarmonicAmplitudes, OfOneHarmonicAreThatOneInAnyAttitude) {
+  for (const catalog::TriangleMesh& mesh : {pear(0.05, 60), moved(pear(0.05, 60), 1, {0, 0, 0})}) {
+    const std::vector<double> d = harmonic_amplitudes(mesh, 15);
+    ASSERT_EQ(d.size(), 16u);
+    EXPECT_NEAR(d[0], std::sqrt(4 * pi), 1e-3 * d[0]);
+    EXPECT_NEAR(d[3] / d[0], 0.05 / std::sqrt(7.0), 1e-4);
+    for (const std::size_t n : {1, 2, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}) EXPECT_LT(d[n] / d[0], 1e-3) << n;
+  }
+}
+
+TEST(HarmonicAmplitudes, OfACubeAreThoseOfItsSymmetry) {
+  const std::vector<double> coarse = harmonic_amplitudes(box_mesh({-1, -1, -1}, {1, 1, 1}), 15);
+  for (int n = 1; n < 16; n += 2) EXPECT_NEAR(coarse[n], 0, 1e-6 * coarse[0]) << n;
+  EXPECT_NEAR(coarse[2], 0, 1e-6 * coarse[0]);
+  EXPECT_GT(coarse[4], 0.05 * coarse[0]);
+}
+
+TEST(ShapeDescriptors, OnlyStarShapedSolidsHaveHarmonics) {
+  EXPECT_TRUE(shape_descriptors(uv_sphere(1, 12)).contains("harmonic_d02_over_d00_garboczi"));
+  EXPECT_FALSE(shape_descriptors(torus(3, 1, 12)).contains("harmonic_d02_over_d00_garboczi"));
 }
 
 }  // namespace
