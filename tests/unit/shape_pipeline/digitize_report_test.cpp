@@ -21,6 +21,7 @@
 #include "tests/support/stack_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/tool_run.h"
+#include "tests/unit/postprocess/well_formed.h"
 
 namespace {
 
@@ -77,6 +78,7 @@ void expect_figures(const std::string& page, const fs::path& file) {
       has(text);
     }
   }
+  EXPECT_EQ(xml_fault(page.substr(page.find("<html"))), "");
   for (const char* link : {"src=\"http", "href=\"http", "url(", "@import", "<script"})
     EXPECT_EQ(page.find(link), std::string::npos) << link;
 }
