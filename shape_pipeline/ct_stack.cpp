@@ -42,8 +42,9 @@ PartedStack part_stack(GreyVolume volume, const std::string& name, const StackOp
   stack.volume = std::move(volume);
   if (options.denoising == StackDenoising::median) median_filter(stack.volume);
   if (options.denoising == StackDenoising::gaussian) gaussian_filter(stack.volume, options.gaussian_sigma);
-  stack.classes = options.threshold ? classes_at(stack.volume, *options.threshold - stack.volume.offset)
-                                    : plateau_classes(stack.volume);
+  stack.classes = options.threshold
+                      ? classes_at(stack.volume, (*options.threshold - stack.volume.offset) / stack.volume.step)
+                      : plateau_classes(stack.volume);
   if (stack.classes.separability == 0)
     refuse_file(
         name, "",
@@ -104,8 +105,8 @@ StackGrain digitized_grain(const PartedStack& stack, std::size_t grain, const St
   expectation.second_volume_tolerance = kVoxelCountTolerance;
   std::vector<catalog::Check> checks = solid_checks(surfaces.outer, expectation);
   checks.push_back({"stack_resolution", true, result.diameter, "voxels a volume-equivalent diameter"});
-  checks.push_back(
-      {"stack_threshold", true, stack.classes.threshold + stack.volume.offset, "grey value of the surface"});
+  checks.push_back({"stack_threshold", true, stack.classes.threshold * stack.volume.step + stack.volume.offset,
+                    "grey value of the surface"});
   checks.push_back({"stack_cavities", true, cavities / outer,
                     options.keeps_cavities ? "volume of cavities, kept, over that of the outer surface"
                                            : "volume of cavities, filled, over that of the outer surface"});
@@ -148,7 +149,7 @@ StackSummary digitize_stack(GreyVolume volume, const std::string& name, const St
   const PartedStack stack = part_stack(std::move(volume), name, options);
   StackSummary summary;
   summary.voxel_size = stack.volume.grid.spacing;
-  summary.threshold = stack.classes.threshold + stack.volume.offset;
+  summary.threshold = stack.classes.threshold * stack.volume.step + stack.volume.offset;
   const std::vector<std::size_t> grains = whole_grains(stack.labels, summary);
   if (grains.empty())
     refuse_file(name, "",

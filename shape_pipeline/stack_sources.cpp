@@ -6,6 +6,7 @@
 
 #include "shape_pipeline/reading/folder_files.h"
 #include "shape_pipeline/reading/scan_bytes.h"
+#include "shape_pipeline/volumes/stack_file.h"
 
 namespace shape_pipeline {
 
@@ -17,16 +18,29 @@ std::string lower_ending(const std::filesystem::path& path) {
 
 bool has_stack_ending(const std::filesystem::path& path) {
   const std::string ending = lower_ending(path);
-  return ending == ".tif" || ending == ".tiff" || ending == ".nrrd" || ending == ".raw";
+  return ending == ".tif" || ending == ".tiff" || ending == ".nrrd" || ending == ".nhdr" || ending == ".raw";
 }
 
 std::vector<std::filesystem::path> stack_sources(const std::filesystem::path& path) {
   if (!std::filesystem::is_directory(path)) {
-    if (lower_ending(path) != ".raw") return {path};
-    return {path, std::filesystem::path(path).replace_extension(".json")};
+    const std::string ending = lower_ending(path);
+    if (ending == ".raw") return {path, std::filesystem::path(path).replace_extension(".json")};
+    if (ending == ".nhdr") return {path, nrrd_values_file(path)};
+    return {path};
   }
-  std::vector<std::filesystem::path> slices = files_in_natural_order(path, {".tif", ".tiff"});
-  if (slices.empty()) refuse_file(path, "", "no TIFF slices in this folder", "put one TIFF a slice there");
+  const std::vector<std::vector<std::string>> kinds{{".tif", ".tiff"}, {".png"}, {".bmp"}, {".jpg", ".jpeg"}};
+  std::vector<std::filesystem::path> slices;
+  for (const std::vector<std::string>& endings : kinds) {
+    std::vector<std::filesystem::path> found = files_in_natural_order(path, endings);
+    if (found.empty()) continue;
+    if (!slices.empty())
+      refuse_file(path, "",
+                  "holds images of two kinds, such as " + slices.front().filename().string() + " and " +
+                      found.front().filename().string(),
+                  "leave there the slices alone");
+    slices = std::move(found);
+  }
+  if (slices.empty()) refuse_file(path, "", "no slices in this folder", "put one TIFF, PNG, BMP or JPEG a slice there");
   return slices;
 }
 

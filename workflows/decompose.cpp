@@ -128,8 +128,8 @@ Scans digitized(const CommandLine&) {
 bool looks_like_a_scan(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  const std::vector<std::string> endings{".stl", ".obj", ".off", ".ply", ".tab",  ".pcd",  ".xyz",
-                                         ".pwn", ".txt", ".asc", ".tif", ".tiff", ".nrrd", ".raw"};
+  const std::vector<std::string> endings{".stl", ".obj", ".off", ".ply",  ".tab",  ".pcd",  ".xyz", ".pwn",
+                                         ".txt", ".asc", ".tif", ".tiff", ".nrrd", ".nhdr", ".raw"};
   return std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 

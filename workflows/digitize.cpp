@@ -58,7 +58,7 @@ constexpr char kDescription[] =
     "brings partial scans of one particle together. --remove-plane takes the floor or turntable out of a cloud,\n"
     "--separate makes each grain on it a shape of its own, named plate_01, ... from that of most points down.\n\n"
     "  talus digitize stack.tif --into ore.talus --voxel '12 um'\n\n"
-    "parts a CT stack (multi-page TIFF, NRRD, RAW with a JSON sidecar, or with --stack a folder of TIFF slices) into "
+    "parts a CT stack (multi-page TIFF, NRRD, RAW with a JSON sidecar, or with --stack a folder of slices) into "
     "its\n"
     "grains, named stack_0001, ... from the largest down.\n\n"
     "  talus digitize image.png --into powder.talus --pixel '0.5 um'\n\n"
@@ -81,7 +81,7 @@ void declare_cloud_options(CLI::App& app, CloudSettings& cloud) {
 }
 
 void declare_stack_options(CLI::App& app, StackSettings& stack) {
-  app.add_flag("--stack", stack.is_asked_for, "each folder is one CT stack, a TIFF a slice");
+  app.add_flag("--stack", stack.is_asked_for, "each folder is one CT stack, a TIFF, PNG, BMP or JPEG a slice");
   app.add_option("--voxel", stack.voxel, "side of a voxel of a stack, such as '12 um'; three for x, y, z with commas");
   app.add_option("--threshold", stack.threshold,
                  "grey value of a stack from which on a voxel is grain; else the one at which volumes are true");

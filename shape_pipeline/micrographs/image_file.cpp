@@ -142,6 +142,18 @@ GreyImage read_image(const fs::path& path) {
   return image;
 }
 
+GreySlice read_slice(const fs::path& path) {
+  const cv::Mat image = decoded(path);
+  if (image.channels() != 1 || (image.depth() != CV_8U && image.depth() != CV_16U))
+    refuse(path, "is no grey image of 8 or 16 bits (" + std::to_string(image.channels()) +
+                     " channels); save the grey values, one sample a pixel");
+  GreySlice slice{image.cols, image.rows, image.depth() == CV_8U ? 1 : 2, ""};
+  for (int y = 0; y < image.rows; ++y)
+    slice.samples.append(reinterpret_cast<const char*>(image.ptr(y)),
+                         static_cast<std::size_t>(image.cols) * static_cast<std::size_t>(slice.bytes));
+  return slice;
+}
+
 void write_image(const fs::path& path, const GreyImage& image) { write_png(path, in_bytes(image)); }
 
 ColourImage picture_of(const GreyImage& image, const std::vector<ColourLine>& lines, double scale) {

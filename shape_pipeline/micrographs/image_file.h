@@ -3,6 +3,7 @@
 
 #include <array>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "shape_pipeline/colour_image.h"
@@ -14,6 +15,16 @@ namespace shape_pipeline {
 /// 255: those of 8 bits as they are, those of 16 stretched between the darkest and brightest thousandth. Throws
 /// InputError, the file named, for what is empty, ends early, is none of these, or smaller than 32 pixels a side.
 GreyImage read_image(const std::filesystem::path& path);
+
+/// An image as it is stored, one channel.
+struct GreySlice {
+  int width = 0, height = 0;  // [pixels]
+  int bytes = 1;              // a value: 1 or 2
+  std::string samples;        // row by row, in this machine's order of bytes
+};
+
+/// Reads a PNG, JPEG or BMP. Throws InputError as read_image(), and for colours.
+GreySlice read_slice(const std::filesystem::path& path);
 
 /// Writes the image as PNG of 8 bits. Throws InputError if it cannot.
 void write_image(const std::filesystem::path& path, const GreyImage& image);

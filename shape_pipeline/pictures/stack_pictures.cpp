@@ -178,7 +178,7 @@ ColourImage StackPictures::section(const StackSection& section, const std::vecto
 }
 
 DeviationMap StackPictures::deviation(const catalog::TriangleMesh& grain, double threshold) const {
-  const double level = threshold - volume_.offset;
+  const double level = (threshold - volume_.offset) / volume_.step;
   const double side = *std::min_element(volume_.grid.spacing.begin(), volume_.grid.spacing.end());
   const std::vector<Point> normals = vertex_normals(grain);
   std::vector<double> values(grain.vertices.size(), std::numeric_limits<double>::quiet_NaN());

@@ -26,11 +26,11 @@ struct VoxelGrid {
   double voxel_volume() const { return spacing[0] * spacing[1] * spacing[2]; }  // [m3]
 };
 
-/// Grey values as the file has them, but for an offset that makes signed ones unsigned.
+/// Grey values as the file has them, but for an offset that makes signed ones unsigned; real numbers in 65,536 steps.
 struct GreyVolume {
   VoxelGrid grid;
   std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>> values;  // grid.count()
-  int offset = 0;  // grey value of the file = value here + offset
+  double offset = 0, step = 1;  // grey value of the file = value here * step + offset
 };
 
 }  // namespace shape_pipeline

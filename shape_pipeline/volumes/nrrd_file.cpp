@@ -16,7 +16,7 @@ namespace shape_pipeline {
 namespace {
 
 using Fields = std::map<std::string, std::string>;
-constexpr char kRemedy[] = "export it as an attached NRRD of whole numbers, raw or gzip";
+constexpr char kRemedy[] = "export it as a NRRD of one file, raw or gzip";
 
 struct Header {
   Fields fields;
@@ -39,6 +39,7 @@ Header read_header(const std::filesystem::path& path) {
     const std::size_t colon = line.find(": ");
     if (line[0] != '#' && colon != std::string::npos) header.fields[line.substr(0, colon)] = line.substr(colon + 2);
   }
+  if (header.fields.contains("data file") || header.fields.contains("datafile")) return header;
   refuse_file(path, "", "the header does not end: the file is cut off", "export the stack again");
 }
 
@@ -49,17 +50,28 @@ std::string field(const std::filesystem::path& path, const Fields& fields, const
 }
 
 SampleType sample_type(const std::filesystem::path& path, const Fields& fields) {
-  const std::map<std::string, SampleType> known{
-      {"uint8", {1, false}},    {"uint8_t", {1, false}}, {"uchar", {1, false}},          {"unsigned char", {1, false}},
-      {"int8", {1, true}},      {"int8_t", {1, true}},   {"signed char", {1, true}},     {"uint16", {2, false}},
-      {"uint16_t", {2, false}}, {"ushort", {2, false}},  {"unsigned short", {2, false}}, {"int16", {2, true}},
-      {"int16_t", {2, true}},   {"short", {2, true}},    {"signed short", {2, true}}};
+  const std::map<std::string, SampleType> known{{"uint8", {1, false}},
+                                                {"uint8_t", {1, false}},
+                                                {"uchar", {1, false}},
+                                                {"unsigned char", {1, false}},
+                                                {"int8", {1, true}},
+                                                {"int8_t", {1, true}},
+                                                {"signed char", {1, true}},
+                                                {"uint16", {2, false}},
+                                                {"uint16_t", {2, false}},
+                                                {"ushort", {2, false}},
+                                                {"unsigned short", {2, false}},
+                                                {"int16", {2, true}},
+                                                {"int16_t", {2, true}},
+                                                {"short", {2, true}},
+                                                {"signed short", {2, true}},
+                                                {"float", {4, true, false, true}}};
   const auto found = known.find(field(path, fields, "type"));
   if (found == known.end())
     refuse_file(path, "type", "'" + field(path, fields, "type") + "' is not read",
-                "save whole numbers of 8 or 16 bits");
+                "save whole numbers of 8 or 16 bits, or float");
   SampleType type = found->second;
-  if (type.bytes == 2) type.is_big_endian = field(path, fields, "endian") == "big";
+  if (type.bytes > 1) type.is_big_endian = field(path, fields, "endian") == "big";
   return type;
 }
 
@@ -88,7 +100,7 @@ std::array<double, 3> spacing_of(const std::filesystem::path& path, const Fields
   return spacing;
 }
 
-void read_gzip(const std::filesystem::path& path, std::size_t offset, GreyVolume& volume, const SampleType& type) {
+void read_gzip(const std::filesystem::path& path, std::size_t offset, SampleSink& sink) {
   std::FILE* const file = std::fopen(path.c_str(), "rb");
   if (!file) refuse_file(path, "", "cannot be opened for reading", "check its permissions");
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> closing(file, std::fclose);
@@ -96,8 +108,9 @@ void read_gzip(const std::filesystem::path& path, std::size_t offset, GreyVolume
   if (std::fseek(file, static_cast<long>(offset), SEEK_SET) != 0 || inflateInit2(&stream, 15 + 32) != Z_OK)
     refuse_file(path, "", "cannot be decompressed", kRemedy);
   std::unique_ptr<z_stream, int (*)(z_stream*)> ending(&stream, inflateEnd);
-  std::string packed(1 << 16, '\0'), slice(volume.grid.index(0, 0, 1) * static_cast<std::size_t>(type.bytes), '\0');
-  for (int z = 0; z < volume.grid.size[2]; ++z) {
+  std::string packed(1 << 16, '\0'),
+      slice(sink.grid().index(0, 0, 1) * static_cast<std::size_t>(sink.type().bytes), '\0');
+  for (int z = 0; z < sink.grid().size[2]; ++z) {
     stream.next_out = reinterpret_cast<Bytef*>(slice.data());
     stream.avail_out = static_cast<uInt>(slice.size());
     while (stream.avail_out > 0) {
@@ -110,17 +123,37 @@ void read_gzip(const std::filesystem::path& path, std::size_t offset, GreyVolume
         refuse_file(path, "slice " + std::to_string(z + 1), "the file is cut off or damaged there",
                     "export the stack again");
     }
-    store_samples(volume, volume.grid.index(0, 0, z), slice, type);
+    sink.store(sink.grid().index(0, 0, z), slice);
   }
+}
+
+/// The file that the header names, beside it; empty if the values follow the header.
+std::filesystem::path named_file(const std::filesystem::path& path, const Fields& fields) {
+  const auto entry = fields.contains("data file") ? fields.find("data file") : fields.find("datafile");
+  if (entry == fields.end()) return {};
+  const std::filesystem::path name = entry->second;
+  if (entry->second == "LIST" || entry->second.find('%') != std::string::npos)
+    refuse_file(path, "data file", "the values stand in several files", kRemedy);
+  for (const char* skip : {"line skip", "lineskip", "byte skip", "byteskip"})
+    if (fields.contains(skip) && fields.at(skip) != "0")
+      refuse_file(path, skip, "expected 0, found '" + fields.at(skip) + "'", kRemedy);
+  std::filesystem::path values = name.is_absolute() ? name : path.parent_path() / name;
+  if (!std::filesystem::is_regular_file(values))
+    refuse_file(path, "data file", "there is no file " + values.string(), "put it beside the header");
+  return values;
 }
 
 }  // namespace
 
+std::filesystem::path nrrd_values_file(const std::filesystem::path& path) {
+  const std::filesystem::path values = named_file(path, read_header(path).fields);
+  return values.empty() ? path : values;
+}
+
 GreyVolume read_nrrd(const std::filesystem::path& path, double memory_limit) {
   const Header header = read_header(path);
   const Fields& fields = header.fields;
-  if (fields.contains("data file") || fields.contains("datafile"))
-    refuse_file(path, "data file", "the values stand in another file", kRemedy);
+  const std::filesystem::path detached = named_file(path, fields);
   std::vector<double> sizes;
   if (field(path, fields, "dimension") != "3" || !append_numbers(field(path, fields, "sizes"), sizes) ||
       sizes.size() != 3 || std::any_of(sizes.begin(), sizes.end(), [](double n) { return !(n >= 1 && n < 1e5); }))
@@ -129,14 +162,16 @@ GreyVolume read_nrrd(const std::filesystem::path& path, double memory_limit) {
   const std::string encoding = field(path, fields, "encoding");
   if (encoding != "raw" && encoding != "gzip" && encoding != "gz")
     refuse_file(path, "encoding", "'" + encoding + "' is not read", kRemedy);
-  GreyVolume volume = new_volume(
-      path, {static_cast<int>(sizes[0]), static_cast<int>(sizes[1]), static_cast<int>(sizes[2])}, type, memory_limit);
-  volume.grid.spacing = spacing_of(path, fields);
+  SampleSink sink(path, {static_cast<int>(sizes[0]), static_cast<int>(sizes[1]), static_cast<int>(sizes[2])}, type,
+                  memory_limit);
+  sink.set_spacing(spacing_of(path, fields));
+  const std::filesystem::path& values = detached.empty() ? path : detached;
+  const std::size_t offset = detached.empty() ? header.bytes : 0;
   if (encoding == "raw")
-    read_samples(path, header.bytes, volume, type);
+    sink.store_file(values, offset);
   else
-    read_gzip(path, header.bytes, volume, type);
-  return volume;
+    read_gzip(values, offset, sink);
+  return sink.finished();
 }
 
 }  // namespace shape_pipeline

@@ -47,8 +47,9 @@ class Sidecar {
   }
 
   SampleType type() const {
-    const std::string type = word("type", "", {"uint8", "int8", "uint16", "int16"});
-    return {type.ends_with("8") ? 1 : 2, type[0] == 'i', word("endian", "little", {"little", "big"}) == "big"};
+    const std::string type = word("type", "", {"uint8", "int8", "uint16", "int16", "float32"});
+    const int bytes = type.ends_with("8") ? 1 : type.ends_with("16") ? 2 : 4;
+    return {bytes, type[0] == 'i', word("endian", "little", {"little", "big"}) == "big", type[0] == 'f'};
   }
 
   std::size_t offset() const {
@@ -97,10 +98,10 @@ GreyVolume read_raw_stack(const std::filesystem::path& path, double memory_limit
   if (found != expected)
     refuse_file(path, "", "has " + std::to_string(found) + " bytes, its sidecar says " + std::to_string(expected),
                 "correct size, type or offset in " + std::filesystem::path(path).replace_extension(".json").string());
-  GreyVolume volume = new_volume(path, size, type, memory_limit);
-  volume.grid.spacing = sidecar.voxel_size();
-  read_samples(path, sidecar.offset(), volume, type);
-  return volume;
+  SampleSink sink(path, size, type, memory_limit);
+  sink.set_spacing(sidecar.voxel_size());
+  sink.store_file(path, sidecar.offset());
+  return sink.finished();
 }
 
 }  // namespace shape_pipeline

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <bit>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <string>
 
 #include "shape_pipeline/reading/scan_bytes.h"
-#include "shape_pipeline/stack_sources.h"
 #include "shape_pipeline/volumes/stack_file.h"
 
 namespace shape_pipeline {
@@ -49,20 +49,23 @@ Page current_page(const fs::path& path, TIFF* tiff) {
     refuse_file(path, "", "is a colour image", "save the grey values, one sample a pixel and no palette");
   if (photometric == PHOTOMETRIC_MINISWHITE)
     refuse_file(path, "", "counts 0 as white", "invert it, so that dense matter is bright");
+  const bool is_real = format == SAMPLEFORMAT_IEEEFP;
   const bool is_whole = format == SAMPLEFORMAT_UINT || format == SAMPLEFORMAT_INT || format == SAMPLEFORMAT_VOID;
-  if ((bits != 8 && bits != 16) || !is_whole)
+  if (!(is_whole && (bits == 8 || bits == 16)) && !(is_real && bits == 32))
     refuse_file(path, "",
-                "has grey values of " + std::to_string(bits) + " bits" + (is_whole ? "" : ", no whole numbers"),
-                "save them as whole numbers of 8 or 16 bits");
-  if (TIFFIsTiled(tiff)) refuse_file(path, "", "is stored in tiles", "save it in strips (tiffcp -s)");
+                "has grey values of " + std::to_string(bits) + " bits" +
+                    (is_real    ? ", real numbers"
+                     : is_whole ? ""
+                                : ", complex"),
+                "save them as whole numbers of 8 or 16 bits, or as real ones of 32");
   // libtiff hands over samples in the order of this machine.
-  page.type = {bits / 8, format == SAMPLEFORMAT_INT, std::endian::native == std::endian::big};
+  page.type = {bits / 8, format == SAMPLEFORMAT_INT || is_real, std::endian::native == std::endian::big, is_real};
   return page;
 }
 
 bool is_same(const Page& a, const Page& b) {
   return a.width == b.width && a.height == b.height && a.type.bytes == b.type.bytes &&
-         a.type.is_signed == b.type.is_signed;
+         a.type.is_signed == b.type.is_signed && a.type.is_real == b.type.is_real;
 }
 
 void require_same(const fs::path& path, const std::string& place, const Page& page, const Page& first) {
@@ -75,15 +78,39 @@ void require_same(const fs::path& path, const std::string& place, const Page& pa
                 "give slices of one size and type");
 }
 
-void read_page(const fs::path& path, TIFF* tiff, int slice, GreyVolume& volume, const SampleType& type) {
+[[noreturn]] void refuse_row(const fs::path& path, int slice, std::uint32_t row) {
+  refuse_file(path, "slice " + std::to_string(slice + 1),
+              "row " + std::to_string(row + 1) + " cannot be read: the file is cut off or damaged",
+              "export or copy the stack again");
+}
+
+void read_tiles(const fs::path& path, TIFF* tiff, int slice, SampleSink& sink) {
+  std::uint32_t width = 0, height = 0;
+  TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &width);
+  TIFFGetField(tiff, TIFFTAG_TILELENGTH, &height);
+  const auto columns = static_cast<std::uint32_t>(sink.grid().size[0]);
+  const auto rows = static_cast<std::uint32_t>(sink.grid().size[1]);
+  const auto bytes = static_cast<std::size_t>(sink.type().bytes);
+  std::string tile(static_cast<std::size_t>(TIFFTileSize(tiff)), '\0');
+  if (width == 0 || height == 0 || tile.size() < width * height * bytes) refuse_row(path, slice, 0);
+  for (std::uint32_t top = 0; top < rows; top += height)
+    for (std::uint32_t left = 0; left < columns; left += width) {
+      if (TIFFReadTile(tiff, tile.data(), left, top, 0, 0) < 0) refuse_row(path, slice, top);
+      const std::size_t run = std::min(width, columns - left) * bytes;
+      for (std::uint32_t y = top; y < std::min(rows, top + height); ++y)
+        sink.store(sink.grid().index(static_cast<int>(left), static_cast<int>(y), slice),
+                   std::string_view(tile).substr((y - top) * width * bytes, run));
+    }
+}
+
+void read_page(const fs::path& path, TIFF* tiff, int slice, SampleSink& sink) {
+  if (TIFFIsTiled(tiff)) return read_tiles(path, tiff, slice, sink);
   std::string row(static_cast<std::size_t>(TIFFScanlineSize(tiff)), '\0');
-  const std::size_t bytes = static_cast<std::size_t>(volume.grid.size[0]) * static_cast<std::size_t>(type.bytes);
-  for (int y = 0; y < volume.grid.size[1]; ++y) {
+  const std::size_t bytes = static_cast<std::size_t>(sink.grid().size[0]) * static_cast<std::size_t>(sink.type().bytes);
+  for (int y = 0; y < sink.grid().size[1]; ++y) {
     if (row.size() < bytes || TIFFReadScanline(tiff, row.data(), static_cast<std::uint32_t>(y)) < 0)
-      refuse_file(path, "slice " + std::to_string(slice + 1),
-                  "row " + std::to_string(y + 1) + " cannot be read: the file is cut off or damaged",
-                  "export or copy the stack again");
-    store_samples(volume, volume.grid.index(0, y, slice), std::string_view(row).substr(0, bytes), type);
+      refuse_row(path, slice, static_cast<std::uint32_t>(y));
+    sink.store(sink.grid().index(0, y, slice), std::string_view(row).substr(0, bytes));
   }
 }
 
@@ -127,24 +154,23 @@ GreyVolume read_tiff_stack(const fs::path& path, double memory_limit) {
   if (pages == 1)
     refuse_file(path, "", "has one page: an image, no stack",
                 "give a multi-page TIFF, or a folder of slices with --stack");
-  GreyVolume volume = new_volume(path, {static_cast<int>(first.width), static_cast<int>(first.height), pages},
-                                 first.type, memory_limit);
-  volume.grid.spacing = imagej_spacing(tiff.get());
+  SampleSink sink(path, {static_cast<int>(first.width), static_cast<int>(first.height), pages}, first.type,
+                  memory_limit);
+  sink.set_spacing(imagej_spacing(tiff.get()));
   for (int slice = 0; slice < pages; ++slice) {
     if (slice > 0 && !TIFFReadDirectory(tiff.get()))
       refuse_file(path, "slice " + std::to_string(slice + 1), "cannot be read", "export the stack again");
     require_same(path, "slice " + std::to_string(slice + 1), current_page(path, tiff.get()), first);
-    read_page(path, tiff.get(), slice, volume, first.type);
+    read_page(path, tiff.get(), slice, sink);
   }
   if (!TIFFLastDirectory(tiff.get()))
     refuse_file(path, "slice " + std::to_string(pages + 1), "the file is cut off or damaged there",
                 "export or copy the stack again");
-  return volume;
+  return sink.finished();
 }
 
-GreyVolume read_slice_folder(const fs::path& path, double memory_limit) {
-  const std::vector<fs::path> slices = stack_sources(path);
-  GreyVolume volume;
+GreyVolume read_tiff_slices(const fs::path& path, const std::vector<fs::path>& slices, double memory_limit) {
+  std::optional<SampleSink> sink;
   Page first;
   for (std::size_t s = 0; s < slices.size(); ++s) {
     const TiffFile tiff = open_tiff(slices[s]);
@@ -154,14 +180,15 @@ GreyVolume read_slice_folder(const fs::path& path, double memory_limit) {
                   "give one slice a file, or this file alone");
     if (s == 0) {
       first = page;
-      volume = new_volume(
-          path, {static_cast<int>(page.width), static_cast<int>(page.height), static_cast<int>(slices.size())},
-          page.type, memory_limit);
+      sink.emplace(path,
+                   std::array<int, 3>{static_cast<int>(page.width), static_cast<int>(page.height),
+                                      static_cast<int>(slices.size())},
+                   page.type, memory_limit);
     }
     require_same(slices[s], "", page, first);
-    read_page(slices[s], tiff.get(), static_cast<int>(s), volume, first.type);
+    read_page(slices[s], tiff.get(), static_cast<int>(s), *sink);
   }
-  return volume;
+  return sink->finished();
 }
 
 }  // namespace shape_pipeline

@@ -50,7 +50,7 @@ void write(const fs::path& path, std::string_view bytes) {
 
 void read_any(const fs::path& path) {
   const std::string ending = path.extension();
-  if (ending == ".tif" || ending == ".nrrd" || ending == ".raw") {
+  if (ending == ".tif" || ending == ".nrrd" || ending == ".nhdr" || ending == ".raw") {
     shape_pipeline::read_stack(path, {std::array<double, 3>{1e-5, 1e-5, 1e-5}, kMemoryLimit});
   } else if (ending == ".png" || ending == ".jpg" || ending == ".bmp") {
     shape_pipeline::read_image(path);
@@ -68,8 +68,8 @@ void read_any(const fs::path& path) {
 /// The first line is the file's ending, such as ".ply"; a RAW begins with its sidecar, up to a zero byte.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const WorkFolder folder;
-  static constexpr std::string_view kEndings[] = {".ply", ".pcd",  ".xyz", ".stl", ".obj", ".off", ".tab",
-                                                  ".tif", ".nrrd", ".raw", ".png", ".jpg", ".bmp", kTurntable};
+  static constexpr std::string_view kEndings[] = {".ply",  ".pcd",  ".xyz", ".stl", ".obj", ".off", ".tab",    ".tif",
+                                                  ".nrrd", ".nhdr", ".raw", ".png", ".jpg", ".bmp", kTurntable};
   const std::string_view input(reinterpret_cast<const char*>(data), size);
   const std::size_t line = input.find('\n');
   if (line == std::string_view::npos) return 0;

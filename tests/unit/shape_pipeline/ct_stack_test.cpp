@@ -14,6 +14,8 @@
 
 #include "catalog/input_error.h"
 #include "shape_pipeline/mesh_topology.h"
+#include "shape_pipeline/micrographs/image_file.h"
+#include "shape_pipeline/stack_sources.h"
 #include "shape_pipeline/volumes/grey_filters.h"
 #include "shape_pipeline/volumes/stack_file.h"
 #include "tests/support/stack_files.h"
@@ -31,7 +33,22 @@ struct TiffPage {
   int width = 4, height = 3, bits = 8, samples = 1;
   bool is_signed = false;
   std::string bytes;  // of all rows; zeros where empty
+  bool is_real = false;
+  int tile = 0;  // side of a tile; 0: strips
 };
+
+void write_tiles(TIFF* tiff, const TiffPage& page, const std::string& bytes) {
+  const int sample = page.bits / 8;
+  for (int top = 0; top < page.height; top += page.tile)
+    for (int left = 0; left < page.width; left += page.tile) {
+      std::string tile(static_cast<std::size_t>(page.tile * page.tile * sample), '\0');
+      for (int y = top; y < std::min(page.height, top + page.tile); ++y)
+        for (int b = 0; b < sample * std::min(page.tile, page.width - left); ++b)
+          tile[static_cast<std::size_t>((y - top) * page.tile * sample + b)] =
+              bytes[static_cast<std::size_t>((y * page.width + left) * sample + b)];
+      TIFFWriteTile(tiff, tile.data(), static_cast<std::uint32_t>(left), static_cast<std::uint32_t>(top), 0, 0);
+    }
+}
 
 void write_tiff(const std::filesystem::path& path, const std::vector<TiffPage>& pages,
                 const std::string& description = "") {
@@ -41,7 +58,10 @@ void write_tiff(const std::filesystem::path& path, const std::vector<TiffPage>& 
     TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, page.height);
     TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, page.bits);
     TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, page.samples);
-    TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, page.is_signed ? SAMPLEFORMAT_INT : SAMPLEFORMAT_UINT);
+    TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT,
+                 page.is_real     ? SAMPLEFORMAT_IEEEFP
+                 : page.is_signed ? SAMPLEFORMAT_INT
+                                  : SAMPLEFORMAT_UINT);
     TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, page.samples == 3 ? PHOTOMETRIC_RGB : PHOTOMETRIC_MINISBLACK);
     TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
     if (!description.empty()) {
@@ -52,7 +72,12 @@ void write_tiff(const std::filesystem::path& path, const std::vector<TiffPage>& 
     const std::size_t row = static_cast<std::size_t>(page.width * page.samples * page.bits / 8);
     std::string bytes = page.bytes;
     bytes.resize(row * static_cast<std::size_t>(page.height));
-    for (int y = 0; y < page.height; ++y)
+    if (page.tile > 0) {
+      TIFFSetField(tiff, TIFFTAG_TILEWIDTH, page.tile);
+      TIFFSetField(tiff, TIFFTAG_TILELENGTH, page.tile);
+      write_tiles(tiff, page, bytes);
+    }
+    for (int y = 0; page.tile == 0 && y < page.height; ++y)
       TIFFWriteScanline(tiff, bytes.data() + row * static_cast<std::size_t>(y), static_cast<std::uint32_t>(y));
     TIFFWriteDirectory(tiff);
   }
@@ -96,7 +121,7 @@ std::vector<int> read_values(const std::filesystem::path& path) {
   EXPECT_EQ(volume.grid.size, (std::array<int, 3>{4, 3, 3}));
   std::vector<int> values;
   for (const std::uint16_t value : std::get<std::vector<std::uint16_t>>(volume.values))
-    values.push_back(value + volume.offset);
+    values.push_back(value + static_cast<int>(volume.offset));
   return values;
 }
 
@@ -134,6 +159,69 @@ TEST(CtStackReading, SixteenBitsOfEveryFormatSignedAndUnsigned) {
   }
 }
 
+TEST(CtStackReading, TilesAndDetachedHeaders) {
+  const TemporaryFolder folder;
+  const std::string bytes = little_endian(std::vector<int>(20 * 17 * 3, 0));
+  std::string values = bytes;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<char>(i * 7 + i / 256);
+  std::vector<TiffPage> pages(3, {20, 17, 16, 1, false, "", false, 16});
+  for (std::size_t p = 0; p < 3; ++p) pages[p].bytes = values.substr(p * values.size() / 3, values.size() / 3);
+  write_tiff(folder / "tiles.tif", pages);
+  write_text(folder / "values.bin", values);
+  write_text(folder / "apart.nhdr",
+             "NRRD0004\ntype: uint16\ndimension: 3\nsizes: 20 17 3\nendian: little\nencoding: raw\n"
+             "data file: values.bin\n");
+  const GreyVolume tiles = read_stack(folder / "tiles.tif", {kVoxel, 0});
+  const GreyVolume apart = read_stack(folder / "apart.nhdr", {kVoxel, 0});
+  EXPECT_EQ(tiles.grid.size, (std::array<int, 3>{20, 17, 3}));
+  EXPECT_EQ(std::get<std::vector<std::uint16_t>>(tiles.values), std::get<std::vector<std::uint16_t>>(apart.values));
+  const auto& read = std::get<std::vector<std::uint16_t>>(apart.values);
+  for (std::size_t i = 0; i < read.size(); ++i)
+    ASSERT_EQ(read[i], static_cast<unsigned char>(values[2 * i]) | static_cast<unsigned char>(values[2 * i + 1]) << 8);
+  EXPECT_EQ(stack_sources(folder / "apart.nhdr").size(), 2u);
+}
+
+TEST(CtStackReading, ImagesOfAFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "slices");
+  for (int s = 9; s < 12; ++s) {  // 9, 10, 11: the natural order is not that of the letters
+    GreyImage image(40, 33);
+    for (std::size_t i = 0; i < image.values.size(); ++i) image.values[i] = static_cast<float>((i * 3 + s) % 256);
+    write_image(folder / ("slices/s" + std::to_string(s) + ".png"), image);
+  }
+  const GreyVolume volume = read_stack(folder / "slices", {kVoxel, 0});
+  EXPECT_EQ(volume.grid.size, (std::array<int, 3>{40, 33, 3}));
+  const auto& values = std::get<std::vector<std::uint8_t>>(volume.values);
+  for (std::size_t z = 0; z < 3; ++z)
+    for (std::size_t i = 0; i < 40 * 33; ++i) ASSERT_EQ(values[z * 40 * 33 + i], (i * 3 + z + 9) % 256);
+}
+
+// Half a step of 65,535 is what rounding may take; one voxel far beyond all others is clipped.
+TEST(CtStackReading, RealNumbersBecomeSteps) {
+  const TemporaryFolder folder;
+  std::vector<float> values;
+  for (int i = 0; i < 30 * 30 * 30; ++i) values.push_back(static_cast<float>(-0.02 + 0.07 * (i % 1000) / 999.0));
+  values[12345] = 1e6f;
+  std::string little(reinterpret_cast<const char*>(values.data()), 4 * values.size()), big = little;
+  for (std::size_t i = 0; i < big.size(); i += 4) std::reverse(big.begin() + i, big.begin() + i + 4);
+  write_text(folder / "a.raw", big);
+  write_text(folder / "a.json", R"({"size": [30, 30, 30], "type": "float32", "endian": "big"})");
+  write_text(folder / "a.nrrd",
+             "NRRD0004\ntype: float\ndimension: 3\nsizes: 30 30 30\nendian: little\nencoding: raw\n\n" + little);
+  std::vector<TiffPage> pages(30, {30, 30, 32, 1, false, "", true});
+  for (std::size_t p = 0; p < 30; ++p) pages[p].bytes = little.substr(3600 * p, 3600);
+  write_tiff(folder / "a.tif", pages);
+  for (const char* name : {"a.raw", "a.nrrd", "a.tif"}) {
+    const GreyVolume volume = read_stack(folder / name, {kVoxel, 0});
+    EXPECT_LT(volume.step, 1.6 * 0.07 / 65535) << name;
+    const auto& steps = std::get<std::vector<std::uint16_t>>(volume.values);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (i != 12345) {
+        ASSERT_NEAR(steps[i] * volume.step + volume.offset, values[i], 0.51 * volume.step) << name;
+      }
+  }
+}
+
 TEST(CtStackReading, VoxelSizesOfFiles) {
   const TemporaryFolder folder;
   write_tiff(folder / "imagej.tif", std::vector<TiffPage>(3), "ImageJ=1.53\nimages=3\nunit=micron\nspacing=20.0\n");
@@ -165,8 +253,19 @@ TEST(CtStackReading, BadInputIsRefusedByName) {
   expect("black.tif", "states no voxel size", {});
   write_tiff(folder / "colour.tif", std::vector<TiffPage>(3, {4, 3, 8, 3, false, ""}));
   expect("colour.tif", "colour");
-  write_tiff(folder / "float.tif", std::vector<TiffPage>(3, {4, 3, 32, 1, false, ""}));
-  expect("float.tif", "32 bits");
+  write_tiff(folder / "wide.tif", std::vector<TiffPage>(3, {4, 3, 32, 1, false, ""}));
+  expect("wide.tif", "32 bits");
+  std::vector<TiffPage> reals(3, {4, 3, 32, 1, false, "", true});
+  reals[1].bytes = std::string("\x00\x00\xc0\x7f", 4);
+  write_tiff(folder / "real.tif", reals);
+  expect("real.tif", "1 voxels are no numbers");
+  std::filesystem::create_directories(folder / "mixed");
+  write_text(folder / "mixed/1.png", "x");
+  write_text(folder / "mixed/2.bmp", "x");
+  expect("mixed", "images of two kinds");
+  write_text(folder / "away.nhdr",
+             "NRRD0004\ntype: uint8\ndimension: 3\nsizes: 3 3 3\nencoding: raw\ndata file: none.raw\n");
+  expect("away.nhdr", "there is no file");
   write_tiff(folder / "single.tif", {TiffPage{}});
   expect("single.tif", "one page");
   write_text(folder / "empty.tif", "");
