@@ -35,10 +35,14 @@ std::vector<std::uint8_t> bytes_of(const fs::path& path) {
   return bytes;
 }
 
-/// The decoders take files that end early, and fill in what is missing.
-void require_end(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
+/// The decoders take files that end early, too, and fill in what is missing.
+void require_whole_image(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const bool is_png = text.starts_with("\x89PNG"), is_jpeg = text.starts_with("\xff\xd8");
+  // The decoders go by content, and there are some for kinds that nobody asked for.
+  const bool is_tiff = text.starts_with(std::string_view("II*\0", 4)) || text.starts_with(std::string_view("MM\0*", 4));
+  if (!is_png && !is_jpeg && !is_tiff && !text.starts_with("BM"))
+    refuse(path, "is damaged or of another kind, " + std::string(kKinds) + "; save it anew");
   if ((is_png && text.find("IEND") == text.npos) || (is_jpeg && text.rfind("\xff\xd9") == text.npos))
     refuse(path, "ends before its last pixels do (truncated " + std::string(is_png ? "PNG" : "JPEG") +
                      "); copy or save it anew");
@@ -46,7 +50,7 @@ void require_end(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
 
 cv::Mat decoded(const fs::path& path) {
   const std::vector<std::uint8_t> bytes = bytes_of(path);
-  require_end(path, bytes);
+  require_whole_image(path, bytes);
   cv::Mat image;
   try {
     image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
