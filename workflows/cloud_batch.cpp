@@ -22,7 +22,6 @@ namespace fs = std::filesystem;
 using shape_pipeline::PartialScan;
 using shape_pipeline::PointCloud;
 
-constexpr int kGrainDigits = 2;
 constexpr char kGrainsCheck[] = "plate_grains";  // its figure: the grains that the cloud was separated into
 
 std::string options_text(const ScanSettings& settings, const CloudSettings& cloud) {
@@ -122,7 +121,7 @@ void CloudBatch::digitize(const Job& job) {
   if (is_done(job, provenance)) return;
   const Grain whole = merged(job);
   for (const std::string& note : whole.notes) progress_.note(note);
-  const GrainSeries series{job.name, kGrainDigits};
+  const GrainSeries series{job.name, kPlateDigits};
   if (!settings_.is_separated) {
     remove_stale_grains(catalog_, series, 0, provenance, progress_);
     return store(job, job.name, provenance, whole);
@@ -154,7 +153,7 @@ bool CloudBatch::is_done(const Job& job, const catalog::Provenance& provenance) 
   std::vector<DigitizedScan> known;
   std::size_t expected = 1;
   for (std::size_t g = 1; g <= expected; ++g) {
-    const std::string name = settings_.is_separated ? GrainSeries{job.name, kGrainDigits}.name(g) : job.name;
+    const std::string name = settings_.is_separated ? GrainSeries{job.name, kPlateDigits}.name(g) : job.name;
     const auto id = catalog_.find(name);
     if (!id) return false;
     const catalog::ShapeRecord shape = catalog_.shape(*id);

@@ -34,7 +34,7 @@ void remove_stale_grains(catalog::ShapeCatalog& catalog, const GrainSeries& seri
       if (have_one_source(known, provenance) && is_followed) return;
       catalog.remove_shape(name);
       if (!is_followed) removed.push_back(name);
-    } else if (!is_followed) {
+    } else if (!is_followed && count > 0) {
       foreign.push_back(name);
     }
   };

@@ -19,9 +19,12 @@ struct GrainSeries {
   std::string name(std::size_t number) const;
 };
 
+inline constexpr int kPlateDigits = 2;  // of the grains of a plate
+
 /// Takes what an earlier run with other bytes or options made of the same source (by its file's name) out of the
 /// catalogue: the grains of the series, shapes and rejected ones, and the shape of the stem where the source is parted
-/// now. `count` grains follow; beyond them the notice names what goes, and what stays because it has another source.
+/// now. `count` grains follow (0: one shape of the stem's name); beyond them the notice names what goes, and what stays
+/// in the series because it has another source.
 void remove_stale_grains(catalog::ShapeCatalog& catalog, const GrainSeries& series, std::size_t count,
                          const catalog::Provenance& provenance, BatchProgress& progress);
 
