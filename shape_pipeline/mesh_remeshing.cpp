@@ -9,6 +9,7 @@
 #include "shape_pipeline/mesh_topology.h"
 #include "shape_pipeline/meshes/edge_collapse.h"
 #include "shape_pipeline/meshes/isotropic_remeshing.h"
+#include "shape_pipeline/meshes/self_intersections.h"
 
 namespace shape_pipeline {
 namespace {
@@ -40,10 +41,13 @@ RemeshedMesh remesh(const catalog::TriangleMesh& mesh, const RemeshingOptions& o
     return {mesh,
             {{"remeshed_faces", false, static_cast<double>(mesh.faces.size()),
               "remeshing would have opened the surface; the mesh is unchanged"}}};
+  const std::size_t cuts = count_self_intersections(result);
   const double volume_change = signed_volume(result) / signed_volume(mesh) - 1;
   const double area_change = surface_area(result) / surface_area(mesh) - 1;
   return {std::move(result),
           {{"remeshed_faces", true, static_cast<double>(mesh.faces.size()), "faces before remeshing (figure)"},
+           {"remeshing_self_intersections", cuts == 0, static_cast<double>(cuts),
+            "pairs of faces that cut one another after remeshing, expected 0; more --faces keep thin walls apart"},
            change_check("volume", volume_change, kLargestVolumeChange),
            change_check("area", area_change, kLargestAreaChange)}};
 }

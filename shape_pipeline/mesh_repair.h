@@ -16,8 +16,8 @@ struct RepairOptions {
   int genus = 0;  // handles of the particle: 0 for a stone, 1 for a ring
   Wrapping wrapping = Wrapping::where_repair_fails;
   // refuse: the largest surface must have 90 % of the area, the others are specks and dropped; else closed surfaces
-  // must cross and so be one body, and torn patches are taken for one. largest: by area, whatever the others are. join:
-  // all are one grain.
+  // must meet and so be one body without a cavity, and torn patches are taken for one surface. largest: the body of
+  // largest area with its cavities. join: all are one grain.
   catalog::SeparateBodies bodies = catalog::SeparateBodies::refuse;
 };
 
@@ -32,8 +32,8 @@ struct RepairedMesh {
 
 /// Welds vertices, removes degenerate and double faces, orients, splits forked edges, keeps the largest surface, fills
 /// holes, removes self-intersections, turns outwards; checks the result and, where that is no right solid, rebuilds it
-/// from its points or wraps it. Joined bodies: so for each; surfaces in a body are its cavities if turned inwards, and
-/// dropped if not; bodies that cross are united; specks of less than a thousandth of the area are dropped.
+/// from its points or wraps it. Of several bodies so for each, see meshes/joined_bodies.h; where that cannot be done
+/// and the largest surface has 90 % of the area, that alone is taken, and the check "repair_joined_bodies" fails.
 RepairedMesh repair_mesh(const catalog::TriangleMesh& scanned, const RepairOptions& options);
 
 }  // namespace shape_pipeline

@@ -6,11 +6,13 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <set>
 
 #include "catalog/grade.h"
 #include "workflows/error_json.h"
 #include "workflows/level_choice.h"
+#include "workflows/population/zingg_class.h"
 
 namespace workflows {
 namespace {
@@ -83,6 +85,13 @@ std::vector<std::string> columns_for(const std::vector<ShapeSummary>& shapes) {
   return chosen;
 }
 
+/// By the sides of the box of least volume; none where they were not measured.
+std::optional<std::string> zingg_name(const ShapeSummary& shape) {
+  const auto s_over_i = shape.descriptors.find("zingg_s_over_i"), i_over_l = shape.descriptors.find("zingg_i_over_l");
+  if (s_over_i == shape.descriptors.end() || i_over_l == shape.descriptors.end()) return std::nullopt;
+  return kZinggClasses[zingg_class(s_over_i->second, i_over_l->second)];
+}
+
 Json levels_json(const ShapeSummary& shape) {
   Json levels = Json::array();
   const std::vector<bool> front = on_front(shape.levels);
@@ -150,7 +159,7 @@ std::string list_text(const std::vector<ShapeSummary>& shapes) {
   const std::vector<std::string> descriptors = columns_for(shapes);
   Row header{"name", "grade", "volume[mm3]", "d_eq[mm]", "faces"};
   header.insert(header.end(), descriptors.begin(), descriptors.end());
-  header.insert(header.end(), {"levels", "failed checks"});
+  header.insert(header.end(), {"zingg", "levels", "failed checks"});
   std::vector<Row> rows{header};
   for (const ShapeSummary& shape : shapes) {
     Row row{shape.name, std::to_string(shape.grade), figure(shape.volume * 1e9),
@@ -159,6 +168,7 @@ std::string list_text(const std::vector<ShapeSummary>& shapes) {
       const auto found = shape.descriptors.find(name);
       row.push_back(found == shape.descriptors.end() ? "-" : figure(found->second));
     }
+    row.push_back(zingg_name(shape).value_or("-"));
     row.push_back(joined(level_names(shape)));
     row.push_back(joined(shape.failed_checks));
     rows.push_back(row);
@@ -168,7 +178,8 @@ std::string list_text(const std::vector<ShapeSummary>& shapes) {
 
 std::string list_json(const std::vector<ShapeSummary>& shapes) {
   Json list = Json::array();
-  for (const ShapeSummary& shape : shapes)
+  for (const ShapeSummary& shape : shapes) {
+    const std::optional<std::string> zingg = zingg_name(shape);
     list.push_back({{"id", shape.id},
                     {"name", shape.name},
                     {"grade", shape.grade},
@@ -176,8 +187,10 @@ std::string list_json(const std::vector<ShapeSummary>& shapes) {
                     {"equivalent_diameter", equivalent_diameter(shape.volume)},
                     {"face_count", shape.face_count},
                     {"descriptors", shape.descriptors},
+                    {"zingg_class", zingg ? Json(*zingg) : Json()},
                     {"levels", levels_json(shape)},
                     {"failed_checks", shape.failed_checks}});
+  }
   return finished("shapes", list);
 }
 

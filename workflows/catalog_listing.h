@@ -10,7 +10,8 @@ namespace workflows {
 
 // What talus-catalog prints, as text for people or as one JSON object.
 
-/// A table, one shape a line: name, volume, equivalent diameter, faces, up to four descriptors, levels, failed checks.
+/// A table, one shape a line: name, volume, equivalent diameter, faces, up to four descriptors, Zingg's
+/// class, levels, failed checks.
 std::string list_text(const std::vector<catalog::ShapeSummary>& shapes);
 std::string list_json(const std::vector<catalog::ShapeSummary>& shapes);
 

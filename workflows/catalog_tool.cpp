@@ -8,10 +8,13 @@
 #include "catalog/input_error.h"
 #include "catalog/nearest_word.h"
 #include "catalog/shape_catalog.h"
+#include "workflows/atomic_file.h"
 #include "workflows/catalog_listing.h"
 #include "workflows/command_options.h"
 #include "workflows/level_choice.h"
 #include "workflows/mesh_export.h"
+#include "workflows/population/comparison_report.h"
+#include "workflows/population/form_table.h"
 #include "workflows/shape_sampling.h"
 #include "workflows/stage_tool.h"
 
@@ -36,6 +39,7 @@ struct CatalogOptions {
   int vertex_cap = 0;         // export: 0 for the largest there is
   int face_cap = 0;           // export: 0 for a level without one
   catalog::FitMode mode = catalog::FitMode::volume_true;
+  std::string reference, reference_select, plot;  // compare
   bool json = false;
 };
 
@@ -90,6 +94,16 @@ void declare_options(CLI::App& app, CatalogOptions& options) {
       *write, "--mode", catalog::mode_names(),
       [&](std::size_t mode) { options.mode = static_cast<catalog::FitMode>(mode); },
       "of the level: volume-true (if not given), enclosing or inscribed");
+  CLI::App* compare =
+      action("compare",
+             "Example: talus catalog compare ore.talus --reference sand.csv --plot sand.svg\nDistributions of size and "
+             "form of the shapes beside those of other grains: means, standard deviations, percentiles, correlations, "
+             "Kolmogorov-Smirnov distances, Zingg's classes.");
+  compare->add_option("--reference", options.reference, "CSV file of descriptors (Sand Atlas), or a catalogue")
+      ->required();
+  compare->add_option("--select", options.expression, "only the shapes of this query");
+  compare->add_option("--reference-select", options.reference_select, "of a catalogue as reference, the same");
+  compare->add_option("--plot", options.plot, "SVG file of the cumulative distributions");
   action("rejected", "Example: talus catalog rejected ore.talus\nInputs that could not be used, with the reason.");
 }
 
@@ -182,6 +196,16 @@ std::string names_text(const std::vector<ShapeSummary>& shapes) {
   return text;
 }
 
+std::string compared(const ShapeCatalog& catalog, const CatalogOptions& options) {
+  const FormTable reference = read_form_table(options.reference, options.reference_select);
+  const FormTable made = form_table(catalog, options.expression, options.catalog);
+  const auto comparison = compare_populations(reference.rows, made.rows, Samples::independent);
+  if (!options.plot.empty())
+    write_whole(options.plot, distributions_svg({reference.source, reference.rows}, {made.source, made.rows}));
+  return options.json ? comparison_json(comparison, reference.source, made.source) + "\n"
+                      : comparison_text(comparison, reference.source, made.source);
+}
+
 /// What goes to stdout.
 std::string answer(const CatalogOptions& options) {
   const ShapeCatalog catalog(options.catalog, ShapeCatalog::Access::read_only);
@@ -189,6 +213,7 @@ std::string answer(const CatalogOptions& options) {
     const auto shapes = selected(catalog, options.expression);
     return options.json ? list_json(shapes) : list_text(shapes);
   }
+  if (options.action == "compare") return compared(catalog, options);
   if (options.action == "show") {
     const ShapeId id = id_of(catalog, options);
     const auto print = options.json ? show_json : show_text;

@@ -48,18 +48,17 @@ std::string alternatives(const std::vector<std::string>& words) {
 
 CLI::Option* add_number_to(CLI::App& app, const std::string& name, const std::function<void(double)>& take,
                            NumberRange range, const std::string& help) {
-  const auto read = [take, name, range](const std::string& text) {
+  const std::string words =
+      short_text(range.least) + (range.is_below_most ? " to below " : " to ") + short_text(range.most);
+  const auto read = [take, name, range, words](const std::string& text) {
     double number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     const bool is_number = error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
     if (!is_number || number < range.least || number > range.most || (range.is_below_most && number == range.most))
-      refuse(name,
-             "a number from " + short_text(range.least) + (range.is_below_most ? " to below " : " to ") +
-                 short_text(range.most),
-             text);
+      refuse(name, "a number from " + words, text);
     take(number);
   };
-  return app.add_option_function<std::string>(name, read, help)->type_name("NUMBER");
+  return app.add_option_function<std::string>(name, read, help)->type_name("NUMBER from " + words);
 }
 
 }  // namespace

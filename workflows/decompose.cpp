@@ -2,6 +2,7 @@
 // talus-decompose: convex parts at several levels of detail for the shapes of a catalogue.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -34,16 +35,13 @@ std::string face_range() {
   return std::to_string(decomposition::kFewestFaces) + " to " + std::to_string(decomposition::kMostFaces);
 }
 
-CLI::Validator face_cap() {
-  return CLI::Validator(
-      [](const std::string& text) {
-        int value = 0;
-        const bool is_number = CLI::detail::lexical_cast(text, value);
-        return is_number && (value == 0 || (value >= decomposition::kFewestFaces && value <= decomposition::kMostFaces))
-                   ? std::string()
-                   : "expected " + face_range() + " faces, or 0 for no cap, found '" + text + "'";
-      },
-      "");
+int face_cap(const std::string& text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_number = error == std::errc() && end == text.data() + text.size();
+  if (!is_number || (value != 0 && (value < decomposition::kFewestFaces || value > decomposition::kMostFaces)))
+    throw CLI::ValidationError("--faces", "expected " + face_range() + " faces, or 0 for no cap, found '" + text + "'");
+  return value;
 }
 
 void declare_options(CLI::App& app, CommandLine& line) {
@@ -64,9 +62,10 @@ void declare_options(CLI::App& app, CommandLine& line) {
       app, "--vertices", line.batch.vertex_caps, {decomposition::kFewestVertices, decomposition::kMostVertices},
       "most vertices a part, " + std::to_string(decomposition::kFewestVertices) + " to " +
           std::to_string(decomposition::kMostVertices) + "; several, such as 16,32,64, make a ladder of each");
-  app.add_option("--faces", quality.face_cap,
-                 "most faces a part, faces in one plane counted as one, " + face_range() + "; 0 (if not given): no cap")
-      ->check(face_cap());
+  app.add_option_function<std::string>(
+         "--faces", [&quality](const std::string& text) { quality.face_cap = face_cap(text); },
+         "most faces a part, faces in one plane counted as one, " + face_range() + "; 0 (if not given): no cap")
+      ->type_name("N");
   add_word(
       app, "--mode", catalog::mode_names(),
       [&](std::size_t mode) { quality.mode = static_cast<catalog::FitMode>(mode); },

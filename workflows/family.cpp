@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// talus-family: shapes made from a stored shape.
+// talus-family: shapes made from a stored shape, and populations from the descriptors of many.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -12,6 +12,7 @@
 #include "shape_pipeline/mesh_topology.h"
 #include "shape_pipeline/shape_families.h"
 #include "workflows/command_options.h"
+#include "workflows/family_population.h"
 #include "workflows/made_shapes.h"
 #include "workflows/stage_tool.h"
 #include "workflows/text_format.h"
@@ -27,12 +28,14 @@ struct CommandLine {
   double tolerance = 0.005;
   int degree = 0;
   bool is_json = false;
+  PopulationLine population;
 };
 
 constexpr char kDescription[] =
     "Example: talus family stretch ore.talus rock_01 --s-over-i 0.6 --i-over-l 0.8\n\n"
     "Makes shapes from a stored shape, of the same volume, and stores them beside it with the hash of what they were\n"
-    "made from. What cannot be reached is refused, with the nearest that was.";
+    "made from. What cannot be reached is refused, with the nearest that was. population makes many that match the\n"
+    "descriptors of measured grains: talus family population sand.csv --count 300 --into sand.talus";
 
 CLI::App* action(CLI::App& app, CommandLine& line, const char* name, const char* purpose) {
   CLI::App* command = app.add_subcommand(name, purpose);
@@ -53,6 +56,7 @@ void declare_actions(CLI::App& app, CommandLine& line) {
   angularity->add_option("--tolerance", line.tolerance, "largest difference from the target")->capture_default_str();
   CLI::App* low_pass = action(app, line, "low-pass", "without fine detail: spherical harmonics, or Taubin's filter");
   low_pass->add_option("--degree", line.degree, "finest detail kept, 1 to 30")->required();
+  declare_population(app, line.population);
 }
 
 catalog::ShapeRecord member_shape(const shape_pipeline::FamilyMember& member, int genus) {
@@ -68,7 +72,8 @@ std::string mesh_hash(const catalog::TriangleMesh& mesh) {
 }
 
 int run(const CLI::App& app, const CommandLine& line) {
-  using shape_pipeline::FamilyMember;
+  const std::string verb = app.get_subcommands().front()->get_name();
+  if (verb == "population") return run_population(line.population);
   if (!std::filesystem::exists(line.catalog_path))
     throw catalog::InputError(line.catalog_path.string() + ": there is no such catalogue; check the path");
   catalog::ShapeCatalog catalog = catalogue_to_fill(line.catalog_path);
@@ -78,7 +83,7 @@ int run(const CLI::App& app, const CommandLine& line) {
                               "'; talus catalog list tells the names");
   const catalog::TriangleMesh mesh = catalog.shape(*id).mesh;
   const auto genus = static_cast<int>((2 - shape_pipeline::mesh_topology(mesh).euler_number) / 2);
-  const std::string hash = mesh_hash(mesh), verb = app.get_subcommands().front()->get_name();
+  const std::string hash = mesh_hash(mesh);
 
   std::vector<ShapeOrder> orders;
   const auto add = [&](const std::string& suffix, nlohmann::ordered_json options, auto make) {

@@ -85,6 +85,11 @@ void add_integral(const Corners& corners, int degree, Eigen::VectorXd& sum) {
 
 }  // namespace
 
+std::vector<double> real_harmonics(const Point& direction, int degree) {
+  const Eigen::VectorXd values = harmonics(direction, degree);
+  return {values.begin(), values.end()};
+}
+
 std::vector<double> harmonic_amplitudes(const catalog::TriangleMesh& mesh, int degree) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero((degree + 1) * (degree + 1));
   for (const catalog::Triangle& face : mesh.faces)

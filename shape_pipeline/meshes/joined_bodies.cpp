@@ -4,26 +4,43 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "shape_pipeline/mesh_topology.h"
 #include "shape_pipeline/meshes/hole_filling.h"
-#include "shape_pipeline/meshes/self_intersections.h"
-#include "shape_pipeline/meshes/soup_cleaning.h"
+#include "shape_pipeline/meshes/solid_union.h"
 #include "shape_pipeline/meshes/surface_pieces.h"
-#include "shape_pipeline/meshes/surface_repair.h"
-#include "shape_pipeline/meshes/surface_union.h"
 #include "shape_pipeline/solid_checks.h"
 
 namespace shape_pipeline {
 namespace {
 
+constexpr double kSpeckShare = 0.001;     // of the area: a body of such a surface has 3e-5 of the volume
+constexpr double kSpecksTogether = 0.01;  // of the area: more of them are no specks
+
 std::size_t drop_specks(std::vector<SurfacePiece>& pieces) {
-  double area = 0;
+  double area = 0, specks = 0;
   for (const SurfacePiece& piece : pieces) area += piece.area;
-  return std::erase_if(pieces, [&](const SurfacePiece& piece) { return piece.area < kSpeckShare * area; });
+  const auto is_speck = [&](const SurfacePiece& piece) { return piece.area < kSpeckShare * area; };
+  for (const SurfacePiece& piece : pieces) specks += is_speck(piece) ? piece.area : 0;
+  return specks <= kSpecksTogether * area ? std::erase_if(pieces, is_speck) : 0;
+}
+
+/// The body of largest area with its cavities; roles are found.
+std::size_t drop_other_bodies(std::vector<SurfacePiece>& pieces) {
+  std::size_t largest = 0;
+  for (std::size_t p = 0; p < pieces.size(); ++p)
+    if (pieces[p].role == PieceRole::body && pieces[p].area > pieces[largest].area) largest = p;
+  std::size_t p = 0;
+  const std::size_t dropped = std::erase_if(pieces, [&](const SurfacePiece& piece) {
+    const std::size_t body = piece.role == PieceRole::body ? p : static_cast<std::size_t>(piece.body);
+    ++p;
+    return body != largest;
+  });
+  for (SurfacePiece& piece : pieces) piece.body = piece.role == PieceRole::body ? -1 : 0;  // its box is the largest
+  return dropped;
 }
 
 /// Handles of a surface, of one with holes when they are filled; at most `most`.
@@ -45,9 +62,8 @@ class BodyChecks {
       catalog::Check& kept = checks_[place->second];
       const bool is_count = check.name.starts_with("repair_") && check.name != "repair_alpha_wrap";
       if (is_count) kept.figure += check.figure;
-      const bool is_worse = kept.passed ? !check.passed || std::abs(check.figure) > std::abs(kept.figure)
-                                        : !check.passed && std::abs(check.figure) > std::abs(kept.figure);
-      if (!is_count && is_worse) kept = check;
+      const bool is_larger = std::abs(check.figure) > std::abs(kept.figure);
+      if (!is_count && (kept.passed ? !check.passed || is_larger : !check.passed && is_larger)) kept = check;
     }
   }
 
@@ -58,50 +74,53 @@ class BodyChecks {
   std::map<std::string, std::size_t> places_;
 };
 
-/// Checks that solid_checks() makes of the whole.
+/// Checks that are made of the whole, or have no meaning for a piece.
 bool is_of_whole(const catalog::Check& check) {
-  for (const char* name : {"closed", "one_component", "euler_number", "positive_volume", "volume_hull_ratio"})
+  for (const char* name : {"closed", "one_component", "euler_number", "positive_volume", "volume_hull_ratio",
+                           "volume_second_method", "kept_area_share"})
     if (check.name == name) return true;
   return false;
 }
 
-void append(const catalog::TriangleMesh& other, catalog::TriangleMesh& mesh) {
-  const int first = static_cast<int>(mesh.vertices.size());
-  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const catalog::Triangle& face : other.faces)
-    mesh.faces.push_back({face[0] + first, face[1] + first, face[2] + first});
-}
-
-catalog::TriangleMesh together(const std::vector<catalog::TriangleMesh>& meshes) {
-  catalog::TriangleMesh all;
-  for (const catalog::TriangleMesh& mesh : meshes) append(mesh, all);
-  return all;
-}
-
-/// The bodies made one where they cross; with a refusal where that cannot be.
-struct Joined {
-  catalog::TriangleMesh mesh;
-  std::size_t united = 0;  // bodies less surfaces of the result
+/// The repaired pieces as solids, each body with its cavities.
+struct Solids {
+  std::vector<catalog::TriangleMesh> meshes;
+  std::size_t cavities = 0;
+  catalog::TriangleMesh before, after;  // all surfaces as they were and as they are
   std::string refusal;
 };
 
-Joined joined(const std::vector<catalog::TriangleMesh>& bodies, const std::vector<catalog::TriangleMesh>& cavities) {
-  Joined result;
-  catalog::TriangleMesh holes = together(cavities);
-  result.mesh = together(bodies);
-  append(holes, result.mesh);
-  if (count_self_intersections(result.mesh) == 0) return result;
-  std::optional<catalog::TriangleMesh> whole = united(bodies);
-  if (whole) {
-    put_in_canonical_order(*whole);
-    const std::size_t left = mesh_topology(*whole).components;
-    result.united = bodies.size() - std::min(left, bodies.size());
-    append(holes, *whole);
+Solids repaired_pieces(const std::vector<SurfacePiece>& pieces, const RepairOptions& options, BodyChecks& checks) {
+  Solids solids;
+  std::vector<std::size_t> solid_of(pieces.size());
+  for (std::size_t p = 0; p < pieces.size(); ++p) {
+    const bool is_cavity = pieces[p].role == PieceRole::cavity;
+    append(pieces[p].mesh, solids.before);
+    catalog::TriangleMesh mesh = pieces[p].mesh;
+    if (is_cavity) turn_round(mesh);
+    RepairOptions alone = options;
+    if (pieces.size() == 1) alone.bodies = catalog::SeparateBodies::refuse;
+    alone.genus = handles(mesh, options.genus);
+    RepairedMesh repaired = repaired_surface(cleaned_scan(mesh), alone);
+    if (!repaired.refusal.empty()) {
+      solids.refusal = "of " + std::to_string(pieces.size()) + " surfaces one cannot be repaired: " + repaired.refusal;
+      return solids;
+    }
+    if (pieces.size() > 1) std::erase_if(repaired.checks, is_of_whole);
+    checks.add(repaired.checks);
+    if (is_cavity) turn_round(repaired.mesh);
+    append(repaired.mesh, solids.after);
+    solid_of[p] = is_cavity ? solid_of[static_cast<std::size_t>(pieces[p].body)] : solids.meshes.size();
+    if (!is_cavity) solids.meshes.emplace_back();
+    append(repaired.mesh, solids.meshes[solid_of[p]]);
+    solids.cavities += is_cavity;
   }
-  if (!whole || !mesh_topology(*whole).is_closed() || count_self_intersections(*whole) > 0)
-    result.refusal = "its bodies cut or touch one another and cannot be united";
-  else
-    result.mesh = std::move(*whole);
+  return solids;
+}
+
+RepairedMesh refused(const std::string& reason) {
+  RepairedMesh result;
+  result.refusal = reason;
   return result;
 }
 
@@ -111,64 +130,41 @@ RepairedMesh joined_bodies(CleanedScan scan, const RepairOptions& options) {
   Repair& repair = scan.repair;
   std::vector<SurfacePiece> pieces = surface_pieces(repair.mesh);
   repair.count("dropped_surfaces", drop_specks(pieces), "specks of less than a thousandth of the area dropped");
-  RepairedMesh result;
-  if (pieces.size() > kMostSurfaces) {
-    result.refusal = "the mesh has " + std::to_string(pieces.size()) + " separate surfaces, expected at most " +
-                     std::to_string(kMostSurfaces);
-    return result;
-  }
+  if (pieces.size() > kMostSurfaces)
+    return refused("the mesh has " + std::to_string(pieces.size()) + " separate surfaces, expected at most " +
+                   std::to_string(kMostSurfaces));
   repair.count("turned_surfaces", find_roles(pieces), "surfaces that were inside out turned round");
-  repair.count("inner_surfaces",
-               std::erase_if(pieces, [](const SurfacePiece& piece) { return piece.role == PieceRole::inner; }),
-               "surfaces in a body that bound nothing dropped");
+  if (options.bodies == catalog::SeparateBodies::largest)
+    repair.count("dropped_bodies", drop_other_bodies(pieces), "surfaces of other bodies than the largest dropped");
 
   BodyChecks checks;
   checks.add(repair.checks);
-  std::vector<catalog::TriangleMesh> bodies, cavities, kept;
-  for (SurfacePiece& piece : pieces) {
-    kept.push_back(piece.mesh);
-    if (piece.role == PieceRole::cavity) turn_round(piece.mesh);
-    RepairOptions alone = options;
-    alone.genus = handles(piece.mesh, options.genus);
-    RepairedMesh repaired = repaired_surface(cleaned_scan(piece.mesh), alone);
-    if (!repaired.refusal.empty()) {
-      result.refusal = "of " + std::to_string(pieces.size()) + " surfaces one cannot be repaired: " + repaired.refusal;
-      return result;
-    }
-    if (pieces.size() > 1) std::erase_if(repaired.checks, is_of_whole);
-    checks.add(repaired.checks);
-    if (piece.role == PieceRole::cavity) turn_round(repaired.mesh);
-    (piece.role == PieceRole::cavity ? cavities : bodies).push_back(std::move(repaired.mesh));
-  }
+  const Solids solids = repaired_pieces(pieces, options, checks);
+  if (!solids.refusal.empty()) return refused(solids.refusal);
+  RepairedMesh result;
   result.checks = checks.all();
-  Joined whole = joined(bodies, cavities);
-  if (!whole.refusal.empty()) {
-    result.refusal = whole.refusal;
-    return result;
-  }
+  SolidUnion whole = union_of_solids(solids.meshes);
+  if (!whole.refusal.empty()) return refused(whole.refusal);
   if (pieces.size() > 1) {
     SolidExpectation expectation;
     expectation.genus = options.genus;
     expectation.surfaces = static_cast<int>(mesh_topology(whole.mesh).components);
     expectation.least_hull_ratio = 0;  // bodies far apart fill little of their hull; each was looked at by itself
     const std::vector<catalog::Check> verdict = solid_checks(whole.mesh, expectation);
-    if (!all_passed(verdict)) {
-      result.refusal = "the bodies together are no right solid (" + failures(verdict) + ")";
-      return result;
-    }
+    if (!all_passed(verdict)) return refused("the bodies together are no right solid (" + failures(verdict) + ")");
     Repair joins;
     joins.checks.push_back(
-        {kJoinedBodies, true, static_cast<double>(bodies.size() - whole.united), "bodies taken as one grain"});
-    joins.count("united_bodies", whole.united, "bodies that crossed another made one with it");
-    joins.count("kept_cavities", cavities.size(), "surfaces in a body kept as its cavities");
+        {kJoinedBodies, true, static_cast<double>(solids.meshes.size() - whole.united), "bodies taken as one grain"});
+    joins.count("united_bodies", whole.united, "bodies that met another made one with it");
+    joins.count("touching_bodies", whole.touching, "pairs of faces of bodies that share but edges or corners");
+    joins.count("kept_cavities", solids.cavities, "surfaces in a body kept as its cavities");
     result.checks.insert(result.checks.end(), joins.checks.begin(), joins.checks.end());
     result.checks.insert(result.checks.end(), verdict.begin(), verdict.end());
   }
   result.mesh = std::move(whole.mesh);
-  RepairedMesh apart;  // what is in another body is no deviation
-  apart.mesh = together(bodies);
-  append(together(cavities), apart.mesh);
-  add_deviation(together(kept), apart);
+  RepairedMesh apart;  // what lies in another body is no deviation
+  apart.mesh = solids.after;
+  add_deviation(solids.before, apart);
   result.checks.insert(result.checks.end(), apart.checks.begin(), apart.checks.end());
   return result;
 }

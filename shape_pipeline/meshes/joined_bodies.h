@@ -8,10 +8,10 @@ namespace shape_pipeline {
 
 inline constexpr char kJoinedBodies[] = "repair_joined_bodies";  // the check that counts them after uniting
 
-/// All surfaces of a mesh as one grain, see repair_mesh(). Specks, surfaces of less than a thousandth of the area, are
-/// dropped. A surface that lies in another is a cavity if it is turned inwards, else it bounds nothing and is dropped;
-/// any other is a body, turned outwards. Each is repaired by itself, as repair_mesh() would alone; bodies that cross
-/// are united. `genus` is that of all bodies together. With the deviation.
+/// All surfaces of a mesh as one grain, or those of the largest body if options.bodies says so, see repair_mesh().
+/// Specks, surfaces of less than a thousandth of the area and a hundredth together, are dropped; the others are bodies
+/// and cavities by find_roles(). Each is repaired by itself; the solids of each body and its cavities are united.
+/// `genus` is that of all surfaces together. With the deviation.
 RepairedMesh joined_bodies(CleanedScan scan, const RepairOptions& options);
 
 }  // namespace shape_pipeline

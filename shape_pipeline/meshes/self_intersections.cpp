@@ -21,13 +21,17 @@ namespace PMP = CGAL::Polygon_mesh_processing;
 
 }  // namespace
 
-std::size_t count_self_intersections(const catalog::TriangleMesh& mesh) {
+std::vector<std::pair<std::size_t, std::size_t>> self_intersecting_faces(const catalog::TriangleMesh& mesh) {
   SurfaceMesh surface;
   copy_to_surface_mesh(mesh, surface);
   std::vector<std::pair<SurfaceMesh::Face_index, SurfaceMesh::Face_index>> pairs;
   PMP::self_intersections<CGAL::Sequential_tag>(surface, std::back_inserter(pairs));
-  return pairs.size();
+  std::vector<std::pair<std::size_t, std::size_t>> faces;
+  for (const auto& [a, b] : pairs) faces.emplace_back(a.idx(), b.idx());
+  return faces;
 }
+
+std::size_t count_self_intersections(const catalog::TriangleMesh& mesh) { return self_intersecting_faces(mesh).size(); }
 
 catalog::TriangleMesh without_self_intersections(const catalog::TriangleMesh& mesh) {
   SurfaceMesh surface;

@@ -52,6 +52,23 @@ std::vector<int> numbers_by_distance(const std::vector<Point>& points, double to
   return numbers_by_key(representative);
 }
 
+/// Of two faces on the same vertices: whether one is the other begun elsewhere.
+bool is_turned_alike(const catalog::Triangle& a, const catalog::Triangle& b) {
+  const auto place = std::find(b.begin(), b.end(), a[0]) - b.begin();
+  return b[static_cast<std::size_t>((place + 1) % 3)] == a[1];
+}
+
+/// Whether every edge is run along as often one way as the other.
+bool is_balanced(const catalog::TriangleMesh& soup) {
+  std::map<std::pair<int, int>, int> excess;
+  for (const catalog::Triangle& face : soup.faces)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const int from = face[c], to = face[(c + 1) % 3];
+      excess[{std::min(from, to), std::max(from, to)}] += from < to ? 1 : -1;
+    }
+  return std::all_of(excess.begin(), excess.end(), [](const auto& edge) { return edge.second == 0; });
+}
+
 }  // namespace
 
 std::size_t weld_vertices(catalog::TriangleMesh& soup, double tolerance) {
@@ -95,6 +112,25 @@ std::size_t remove_degenerate_faces(catalog::TriangleMesh& soup) {
     const Point& origin = soup.vertices[face[0]];
     return norm(cross(subtract(soup.vertices[face[1]], origin), subtract(soup.vertices[face[2]], origin))) == 0;
   });
+}
+
+std::size_t remove_shared_walls(catalog::TriangleMesh& soup) {
+  std::map<catalog::Triangle, std::vector<std::size_t>> sides;  // faces by their sorted vertices
+  for (std::size_t f = 0; f < soup.faces.size(); ++f) {
+    catalog::Triangle key = soup.faces[f];
+    std::sort(key.begin(), key.end());
+    sides[key].push_back(f);
+  }
+  std::vector<bool> is_wall(soup.faces.size(), false);
+  std::size_t walls = 0;
+  for (const auto& [key, faces] : sides) {
+    if (faces.size() != 2 || is_turned_alike(soup.faces[faces[0]], soup.faces[faces[1]])) continue;
+    is_wall[faces[0]] = is_wall[faces[1]] = true;
+    walls += 2;
+  }
+  if (walls == 0 || walls == soup.faces.size() || !is_balanced(soup)) return 0;
+  std::size_t f = 0;
+  return std::erase_if(soup.faces, [&](const catalog::Triangle&) { return is_wall[f++]; });
 }
 
 std::size_t remove_duplicate_faces(catalog::TriangleMesh& soup) {

@@ -17,6 +17,10 @@ void put_in_canonical_order(catalog::TriangleMesh& mesh);
 /// Removes faces with a repeated corner or without area. Returns how many.
 std::size_t remove_degenerate_faces(catalog::TriangleMesh& soup);
 
+/// Removes the faces of walls between closed surfaces: pairs on the same three vertices, turned against one another, in
+/// a soup whose every edge is run along as often one way as the other, unless no face would be left. Returns how many.
+std::size_t remove_shared_walls(catalog::TriangleMesh& soup);
+
 /// Removes faces on the same three vertices as an earlier one. Returns how many.
 std::size_t remove_duplicate_faces(catalog::TriangleMesh& soup);
 

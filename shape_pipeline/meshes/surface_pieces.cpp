@@ -80,23 +80,44 @@ std::vector<SurfacePiece> surface_pieces(const catalog::TriangleMesh& mesh) {
 }
 
 std::size_t find_roles(std::vector<SurfacePiece>& pieces) {
+  double volume = 0;
+  for (const SurfacePiece& piece : pieces) volume += piece.volume;
+  std::size_t turned = 0;
+  const auto turn = [&](SurfacePiece& piece) {
+    turn_round(piece.mesh);
+    piece.volume = -piece.volume;
+    ++turned;
+  };
+  if (volume < 0)
+    for (SurfacePiece& piece : pieces) turn(piece);
   std::stable_sort(pieces.begin(), pieces.end(), [](const SurfacePiece& a, const SurfacePiece& b) {
     return distance(a.low, a.high) > distance(b.low, b.high);
   });
   // None lies in one of a smaller box.
-  std::size_t turned = 0;
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     SurfacePiece& piece = pieces[p];
     int around = 0;  // bodies less cavities
-    for (std::size_t q = 0; q < p; ++q)
-      if (pieces[q].role != PieceRole::inner && lies_in(piece, pieces[q]))
-        around += pieces[q].role == PieceRole::body ? 1 : -1;
-    if (around > 0) piece.role = piece.volume < 0 ? PieceRole::cavity : PieceRole::inner;
-    if (around > 0 || piece.volume >= 0) continue;
-    turn_round(piece.mesh);
-    ++turned;
+    for (std::size_t q = 0; q < p; ++q) {
+      if (!lies_in(piece, pieces[q])) continue;
+      around += pieces[q].role == PieceRole::body ? 1 : -1;
+      if (pieces[q].role == PieceRole::body) piece.body = static_cast<int>(q);
+    }
+    if (around > 0 && piece.volume < 0) {
+      piece.role = PieceRole::cavity;
+      continue;
+    }
+    if (piece.volume < 0) turn(piece);
+    piece.is_nested = around > 0;
+    piece.body = -1;
   }
   return turned;
+}
+
+void append(const catalog::TriangleMesh& other, catalog::TriangleMesh& mesh) {
+  const int first = static_cast<int>(mesh.vertices.size());
+  mesh.vertices.insert(mesh.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const catalog::Triangle& face : other.faces)
+    mesh.faces.push_back({face[0] + first, face[1] + first, face[2] + first});
 }
 
 }  // namespace shape_pipeline

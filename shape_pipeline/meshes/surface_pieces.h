@@ -8,14 +8,12 @@
 
 namespace shape_pipeline {
 
-constexpr double kSpeckShare = 0.001;        // of the area: a body of such a surface has 3e-5 of the volume
-constexpr std::size_t kMostSurfaces = 1000;  // more is a cloud of scraps
+inline constexpr std::size_t kMostSurfaces = 1000;  // of a grain; more is a cloud of scraps
 
-/// What a surface is to the solid.
+/// What a surface is to the solid, that is to the points that more bodies than cavities hold.
 enum class PieceRole {
-  body,    // lies in no body; turned outwards
-  cavity,  // lies in a body and is turned inwards
-  inner    // lies in a body and is turned outwards: bounds nothing
+  body,   // turned outwards
+  cavity  // turned inwards, in a body
 };
 
 /// One surface of a mesh, connected by edges; it may have holes.
@@ -25,15 +23,19 @@ struct SurfacePiece {
   double area = 0;               // [m2]
   double volume = 0;             // signed [m3]
   PieceRole role = PieceRole::body;
+  int body = -1;           // of a cavity: the smallest body that holds it
+  bool is_nested = false;  // a body that lies in another
 };
 
 /// The surfaces in the order of first appearance, their roles not yet found.
 std::vector<SurfacePiece> surface_pieces(const catalog::TriangleMesh& mesh);
 
-/// Finds the roles and turns bodies that are inside out. Puts the pieces in order from the largest box down. Returns
-/// how many were turned. Surfaces that cross count as apart.
+/// Finds the roles, putting the pieces in order from the largest box down: a surface that is turned inwards and lies in
+/// a body is its cavity, any other is a body. Bodies that are inside out are turned; so are all surfaces if they hold
+/// less than nothing together. Returns how many were turned.
 std::size_t find_roles(std::vector<SurfacePiece>& pieces);
 
 void turn_round(catalog::TriangleMesh& mesh);
+void append(const catalog::TriangleMesh& other, catalog::TriangleMesh& mesh);
 
 }  // namespace shape_pipeline

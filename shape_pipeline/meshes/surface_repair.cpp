@@ -12,6 +12,7 @@
 #include "shape_pipeline/meshes/soup_cleaning.h"
 #include "shape_pipeline/meshes/soup_orientation.h"
 #include "shape_pipeline/point_cloud.h"
+#include "shape_pipeline/reading/scan_extent.h"
 #include "shape_pipeline/solid_checks.h"
 #include "shape_pipeline/surface_distance.h"
 #include "shape_pipeline/surface_reconstruction.h"
@@ -27,14 +28,15 @@ constexpr double kWeldDistance = 1e-6;         // of the diagonal: single-precis
 constexpr int kElementLimit = 4000;            // surface elements of the winding number: 1 % at half a second
 constexpr double kLeastHullRatio = 0.2;        // a closed mesh may be a thin or hollow-cheeked particle
 constexpr double kLargestRecut = 0.005;        // relative volume change that removing self-intersections may cause
-constexpr double kLargestFilledShare = 0.2;    // of the area: more than this is invention, not repair
 constexpr std::size_t kEnoughVertices = 2000;  // fewer are sampled on the faces before a surface is rebuilt from points
 constexpr double kAlphaParts[] = {90, 65, 45, 30};  // alpha = diagonal / parts, fine to coarse
 constexpr double kOffsetPart = 1.0 / 30;            // offset / alpha
 
 void clean(Repair& repair) {
   repair.count("welded_vertices", weld_vertices(repair.mesh, 0), "vertices joined to an equal one");
-  std::size_t degenerate = remove_degenerate_faces(repair.mesh), doubled = remove_duplicate_faces(repair.mesh);
+  std::size_t degenerate = remove_degenerate_faces(repair.mesh);
+  repair.count("shared_walls", remove_shared_walls(repair.mesh), "faces between bodies that share them removed");
+  std::size_t doubled = remove_duplicate_faces(repair.mesh);
   if (!mesh_topology(repair.mesh).is_closed()) {
     repair.count("welded_near_vertices",
                  weld_vertices(repair.mesh, kWeldDistance * bounding_diagonal(repair.mesh.vertices)),
@@ -149,6 +151,47 @@ Reconstruction rebuilt_from_points(const catalog::TriangleMesh& mesh, int genus)
   return rebuilt;
 }
 
+/// Where the repair left flaws: a surface from the mesh's points, as the scanner turned its faces (orienting torn
+/// patches one by one may turn some inwards), else a wrap of its surfaces.
+RepairedMesh made_anew(const catalog::TriangleMesh& unturned, const catalog::TriangleMesh& surfaces,
+                       const std::string& flaws, const RepairOptions& options, SolidExpectation expectation,
+                       RepairedMesh result) {
+  const std::string replaced = options.wrapping == Wrapping::always ? "" : "repair left " + flaws;
+  std::string tried = flaws;
+  const auto accept = [&](catalog::TriangleMesh&& mesh, const char* instead) {
+    result.mesh = std::move(mesh);
+    if (!replaced.empty()) result.checks.push_back({"repaired_solid", false, 0, replaced + instead});
+  };
+  if (options.wrapping == Wrapping::where_repair_fails) {
+    Reconstruction rebuilt = rebuilt_from_points(unturned, options.genus);
+    if (rebuilt.refusal.empty()) {
+      accept(std::move(rebuilt.mesh), "; rebuilt from its points instead");
+      result.checks.insert(result.checks.end(), rebuilt.checks.begin(), rebuilt.checks.end());
+      return result;
+    }
+    tried += "; " + rebuilt.refusal;
+  }
+  if (options.wrapping != Wrapping::never) {
+    expectation.second_volume = winding_volume(surface_elements(surfaces, kElementLimit));
+    std::string wrap_flaws;
+    for (const double parts : kAlphaParts) {
+      const double alpha = bounding_diagonal(surfaces.vertices) / parts;
+      catalog::TriangleMesh wrap = projected_to_cloud(alpha_wrap(surfaces, alpha, kOffsetPart * alpha),
+                                                      as_cloud(surfaces), mean_edge_length(surfaces));
+      const std::vector<catalog::Check> verdict = solid_checks(wrap, expectation);
+      wrap_flaws = failures(verdict);
+      if (!wrap_flaws.empty()) continue;
+      accept(std::move(wrap), "; alpha wrap taken instead");
+      result.checks.push_back({"repair_alpha_wrap", true, alpha, "radius of the carving ball [m]"});
+      result.checks.insert(result.checks.end(), verdict.begin(), verdict.end());
+      return result;
+    }
+    tried += "; even the coarsest alpha wrap: " + wrap_flaws;
+  }
+  result.refusal = "the mesh cannot be made one right solid (" + tried + ")";
+  return result;
+}
+
 constexpr std::size_t kDeviationSamples = 20000;  // of the input's surface: the mean to half a percent
 constexpr double kLargestDeviation = 0.005;       // mean distance / diagonal: a repair that moves more is invention
 
@@ -169,6 +212,11 @@ CleanedScan cleaned_scan(const catalog::TriangleMesh& scanned) {
 
 RepairedMesh repaired_surface(CleanedScan scan, const RepairOptions& options) {
   Repair& repair = scan.repair;
+  RepairedMesh result;
+  if (repair.mesh.vertices.empty() || are_flat(repair.mesh.vertices)) {
+    result.refusal = "the mesh cannot be made one right solid (all its points lie in one plane)";
+    return result;
+  }
   turn_outwards(repair.mesh);
   const catalog::TriangleMesh all_surfaces = repair.mesh;
   keep_largest_surface(repair);
@@ -177,15 +225,15 @@ RepairedMesh repaired_surface(CleanedScan scan, const RepairOptions& options) {
   SolidExpectation expectation;
   expectation.genus = options.genus;
   expectation.least_hull_ratio = kLeastHullRatio;
-  expectation.second_volume = winding_volume(surface_elements(repair.mesh, kElementLimit));
-
+  // A mesh that came closed has its exact volume; the second method then informs, since it is coarse on thin shapes.
+  // One of several bodies goes without.
+  if (!scan.was_closed || options.bodies == catalog::SeparateBodies::refuse)
+    expectation.second_volume = winding_volume(surface_elements(repair.mesh, kElementLimit));
   close_holes(repair);
   turn_outwards(repair.mesh);
   remove_self_intersections(repair);
 
-  RepairedMesh result;
-  std::vector<catalog::Check> verdict = solid_checks(repair.mesh, expectation);
-  // A mesh that came closed has its exact volume; the second method then informs, since it is coarse on thin shapes.
+  const std::vector<catalog::Check> verdict = solid_checks(repair.mesh, expectation);
   std::vector<catalog::Check> decisive = verdict;
   if (scan.was_closed)
     std::erase_if(decisive, [](const catalog::Check& check) { return check.name == "volume_second_method"; });
@@ -197,42 +245,7 @@ RepairedMesh repaired_surface(CleanedScan scan, const RepairOptions& options) {
     result.checks.insert(result.checks.end(), verdict.begin(), verdict.end());
     return result;
   }
-
-  const std::string flaws = failures(decisive);
-  const std::string replaced = options.wrapping == Wrapping::always ? "" : "repair left " + flaws;
-  std::string tried = flaws;
-  if (options.wrapping == Wrapping::where_repair_fails) {
-    // As the scanner turned them: orienting torn patches one by one may turn some inwards.
-    Reconstruction rebuilt = rebuilt_from_points(scan.unturned, options.genus);
-    if (rebuilt.refusal.empty()) {
-      result.mesh = std::move(rebuilt.mesh);
-      result.checks.push_back({"repaired_solid", false, 0, replaced + "; rebuilt from its points instead"});
-      result.checks.insert(result.checks.end(), rebuilt.checks.begin(), rebuilt.checks.end());
-      return result;
-    }
-    tried += "; " + rebuilt.refusal;
-  }
-  if (options.wrapping != Wrapping::never) {
-    expectation.second_volume = winding_volume(surface_elements(all_surfaces, kElementLimit));
-    std::string wrap_flaws;
-    for (const double parts : kAlphaParts) {
-      const double alpha = bounding_diagonal(all_surfaces.vertices) / parts;
-      const catalog::TriangleMesh wrap = projected_to_cloud(alpha_wrap(all_surfaces, alpha, kOffsetPart * alpha),
-                                                            as_cloud(all_surfaces), mean_edge_length(all_surfaces));
-      verdict = solid_checks(wrap, expectation);
-      wrap_flaws = failures(verdict);
-      if (!wrap_flaws.empty()) continue;
-      result.mesh = wrap;
-      if (!replaced.empty())
-        result.checks.push_back({"repaired_solid", false, 0, replaced + "; alpha wrap taken instead"});
-      result.checks.push_back({"repair_alpha_wrap", true, alpha, "radius of the carving ball [m]"});
-      result.checks.insert(result.checks.end(), verdict.begin(), verdict.end());
-      return result;
-    }
-    tried += "; even the coarsest alpha wrap: " + wrap_flaws;
-  }
-  result.refusal = "the mesh cannot be made one right solid (" + tried + ")";
-  return result;
+  return made_anew(scan.unturned, all_surfaces, failures(decisive), options, expectation, std::move(result));
 }
 
 void add_deviation(const catalog::TriangleMesh& input, RepairedMesh& result) {

@@ -9,7 +9,8 @@
 
 namespace shape_pipeline {
 
-constexpr double kLeastKeptShare = 0.9;  // of the area that the largest surface must have to stand for the scan
+inline constexpr double kLeastKeptShare = 0.9;  // of the area that the largest surface must have to stand for the scan
+inline constexpr double kLargestFilledShare = 0.2;  // of the area: more than this is invention, not repair
 
 /// The steps so far, with the mesh in work.
 struct Repair {

@@ -5,35 +5,28 @@
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Surface_mesh.h>
 
-#include <utility>
-
+#include "shape_pipeline/meshes/soup_cleaning.h"
 #include "shape_pipeline/surfaces/surface_mesh_conversion.h"
 
 namespace shape_pipeline {
 
-std::optional<catalog::TriangleMesh> united(const std::vector<catalog::TriangleMesh>& bodies) {
+std::optional<catalog::TriangleMesh> united(const catalog::TriangleMesh& a, const catalog::TriangleMesh& b) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
   namespace PMP = CGAL::Polygon_mesh_processing;
 
-  SurfaceMesh whole;
-  for (const catalog::TriangleMesh& body : bodies) {
-    SurfaceMesh surface, result;
-    if (!copy_to_surface_mesh(body, surface)) return std::nullopt;
-    if (whole.is_empty()) {
-      whole = std::move(surface);
-      continue;
-    }
-    const auto careful = CGAL::parameters::throw_on_self_intersection(true);
-    try {
-      if (!PMP::corefine_and_compute_union(whole, surface, result, careful, careful)) return std::nullopt;
-    } catch (const PMP::Corefinement::Self_intersection_exception&) {
-      return std::nullopt;
-    }
-    result.collect_garbage();
-    whole = std::move(result);
+  SurfaceMesh first, second, result;
+  if (!copy_to_surface_mesh(a, first) || !copy_to_surface_mesh(b, second)) return std::nullopt;
+  const auto careful = CGAL::parameters::throw_on_self_intersection(true);
+  try {
+    if (!PMP::corefine_and_compute_union(first, second, result, careful, careful)) return std::nullopt;
+  } catch (const PMP::Corefinement::Self_intersection_exception&) {
+    return std::nullopt;
   }
-  return copy_from_surface_mesh(whole);
+  result.collect_garbage();
+  catalog::TriangleMesh mesh = copy_from_surface_mesh(result);
+  put_in_canonical_order(mesh);
+  return mesh;
 }
 
 }  // namespace shape_pipeline

@@ -2,14 +2,13 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
 #include "catalog/triangle_mesh.h"
 
 namespace shape_pipeline {
 
-/// The solid of all points that lie in one of the bodies, each a closed outward surface that does not cut itself; none
-/// where its surface would be no manifold (bodies that share but an edge or a corner) or a body is none.
-std::optional<catalog::TriangleMesh> united(const std::vector<catalog::TriangleMesh>& bodies);
+/// The union of two solids, each bounded by closed surfaces (cavities turned inwards) that do not cut themselves; none
+/// where its surface would be no manifold, such as that of two that share but an edge or a corner.
+std::optional<catalog::TriangleMesh> united(const catalog::TriangleMesh& a, const catalog::TriangleMesh& b);
 
 }  // namespace shape_pipeline

@@ -23,11 +23,8 @@ std::string metres(double length) {
   return text;
 }
 
-}  // namespace
-
-void refuse_flat_scan(const std::filesystem::path& path, const std::vector<catalog::Point>& points) {
-  Point mean{};
-  for (const Point& p : points) mean = add(mean, scaled(p, 1.0 / static_cast<double>(points.size())));
+/// Standard deviations along the principal axes, from the least up.
+Point spread_of(const std::vector<catalog::Point>& points, const Point& mean) {
   catalog::Matrix3 covariance{};
   for (const Point& p : points) {
     const Point d = subtract(p, mean);
@@ -37,14 +34,33 @@ void refuse_flat_scan(const std::filesystem::path& path, const std::vector<catal
   Point variance;
   catalog::Matrix3 axes;
   catalog::symmetric_eigen(covariance, variance, axes);
-  const auto spread = [&](int i) { return std::sqrt(std::max(variance[i], 0.0)); };
-  if (spread(0) > kFlatRatio * spread(2)) return;
+  Point spread;
+  for (int i = 0; i < 3; ++i) spread[i] = std::sqrt(std::max(variance[i], 0.0));
+  return spread;
+}
+
+Point mean_of(const std::vector<catalog::Point>& points) {
+  Point mean{};
+  for (const Point& p : points) mean = add(mean, scaled(p, 1.0 / static_cast<double>(points.size())));
+  return mean;
+}
+
+}  // namespace
+
+bool are_flat(const std::vector<catalog::Point>& points) {
+  const Point spread = spread_of(points, mean_of(points));
+  return !(spread[0] > kFlatRatio * spread[2]);
+}
+
+void refuse_flat_scan(const std::filesystem::path& path, const std::vector<catalog::Point>& points) {
+  const Point mean = mean_of(points), spread = spread_of(points, mean);
+  if (spread[0] > kFlatRatio * spread[2]) return;
   // Sums of equal coordinates leave a spread of rounding errors.
   double largest = 0;
   for (const double coordinate : mean) largest = std::max(largest, std::abs(coordinate));
   const double rounding = 1e-12 * largest * static_cast<double>(points.size());
-  const std::string found = !(spread(2) > rounding)               ? "all points are in one place"
-                            : spread(1) <= kFlatRatio * spread(2) ? "all points lie on one line"
+  const std::string found = !(spread[2] > rounding)               ? "all points are in one place"
+                            : spread[1] <= kFlatRatio * spread[2] ? "all points lie on one line"
                                                                   : "all points lie in one plane";
   refuse_file(path, "points", "expected a solid particle, but " + found,
               "scan it from all sides; of bodies far apart, each alone");

@@ -8,6 +8,9 @@
 
 namespace shape_pipeline {
 
+/// Whether all points lie in one place, on one line or in one plane (to 1e-4 of their spread).
+bool are_flat(const std::vector<catalog::Point>& points);
+
 /// Throws InputError if all points lie in one place, on one line or in one plane (to 1e-4 of their spread).
 void refuse_flat_scan(const std::filesystem::path& path, const std::vector<catalog::Point>& points);
 

@@ -50,8 +50,10 @@ struct LocalPiece {
   double area, slope_x, slope_y;
 };
 
-/// The pieces about a place that are turned its way.
-std::vector<LocalPiece> patch_about(const std::vector<Piece>& pieces, const Piece& place, double radius) {
+/// The pieces about a place that are turned its way. The centres of all stand by themselves too: most pieces are far
+/// away, and only their centres are then read.
+std::vector<LocalPiece> patch_about(const std::vector<Piece>& pieces, const std::vector<Point>& centres,
+                                    const Piece& place, double radius) {
   const Point up = normalized(place.area);
   const Point across = normalized(cross(up, std::abs(up[0]) < 0.5 ? Point{1, 0, 0} : Point{0, 1, 0}));
   const Point along = cross(up, across);
@@ -60,10 +62,12 @@ std::vector<LocalPiece> patch_about(const std::vector<Piece>& pieces, const Piec
     return Point{dot(arm, across), dot(arm, along), dot(arm, up)};
   };
   std::vector<LocalPiece> patch;
-  for (const Piece& piece : pieces) {
-    const Point arm = subtract(piece.centre, place.centre);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const Point arm = subtract(centres[k], place.centre);
+    if (dot(arm, arm) > radius * radius) continue;
+    const Piece& piece = pieces[k];
     const double rise = dot(piece.area, up);
-    if (dot(arm, arm) > radius * radius || rise <= 0) continue;
+    if (rise <= 0) continue;
     patch.push_back({{local(piece.corners[0]), local(piece.corners[1]), local(piece.corners[2])},
                      local(piece.centre),
                      norm(piece.area),
@@ -123,6 +127,8 @@ std::optional<SurfaceRoughness> surface_roughness(const catalog::TriangleMesh& m
   std::vector<Piece> pieces;
   for (const catalog::Triangle& face : mesh.faces)
     add_pieces({mesh.vertices[face[0]], mesh.vertices[face[1]], mesh.vertices[face[2]]}, longest_edge, pieces);
+  std::vector<Point> centres;
+  for (const Piece& piece : pieces) centres.push_back(piece.centre);
   std::vector<SurfaceRoughness> patches;
   double passed = 0;
   int places = 0;
@@ -130,7 +136,7 @@ std::optional<SurfaceRoughness> surface_roughness(const catalog::TriangleMesh& m
     passed += norm(piece.area);
     if (passed < (places + 0.5) * area / kPlaces) continue;
     while ((places + 0.5) * area / kPlaces <= passed) ++places;
-    const std::vector<LocalPiece> patch = patch_about(pieces, piece, patch_radius);
+    const std::vector<LocalPiece> patch = patch_about(pieces, centres, piece, patch_radius);
     if (patch.size() >= kFewestPieces) patches.push_back(roughness_of(patch, patch_radius));
   }
   if (patches.size() < kPlaces / 2) return std::nullopt;

@@ -105,6 +105,7 @@ TEST(DecomposeFolder, AnOptionIsRefusedWithWhatIsAllowedAndWhatWasFound) {
   expect("--vertices 16,65", "--vertices: expected whole numbers from 8 to 64 with commas between them, found '16,65'");
   expect("--effort inf", "--effort: expected a number from 0.1 to 100, found 'inf'");
   expect("--smallest-volume 1", "--smallest-volume: expected a number from 0 to below 1, found '1'");
+  expect("--faces 0x18", "--faces: expected 8 to 124 faces, or 0 for no cap, found '0x18'");
   expect("--faces 5", "--faces: expected 8 to 124 faces, or 0 for no cap, found '5'");
   EXPECT_EQ(usage_error(folder, "ore.talus --genus 0"),
             "talus decompose: usage: --genus is for scans; add --into ore.talus\n");

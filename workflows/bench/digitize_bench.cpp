@@ -46,6 +46,8 @@ BenchPlan plan_digitize_bench(const BenchOptions& options) {
                             if (solids->has("stone10")) measured.emplace_back("stone10", solids->mesh("stone10"));
                             return measure_turntable(turntable, measured);
                           }});
+  if (std::filesystem::exists(options.scans / kPopulationFile))
+    plan.cases.push_back({"population", [scans = options.scans] { return measure_population(scans); }});
   for (const CloudPair& pair : kCloudPairs)
     if (std::filesystem::exists(options.scans / pair.cloud) && std::filesystem::exists(options.scans / pair.mesh))
       plan.cases.push_back(

@@ -79,6 +79,10 @@ CaseResult measure_turntable(const TurntableCase& turntable,
 /// A random rock, one with a notch, a flat one: with their names.
 std::vector<std::pair<std::string, catalog::TriangleMesh>> turntable_rocks();
 
+/// New grains made to match those of a measured sand against its descriptors.
+inline constexpr char kPopulationFile[] = "sandatlas_hamburg_grain_descriptors.csv";
+CaseResult measure_population(const std::filesystem::path& scans);
+
 /// Descriptors of bodies with closed forms: largest relative error.
 CaseResult measure_exact_descriptors();
 
