@@ -43,10 +43,11 @@ std::size_t drop_other_bodies(std::vector<SurfacePiece>& pieces) {
   return dropped;
 }
 
-/// Handles of a surface, of one with holes when they are filled; at most `most`.
-int handles(catalog::TriangleMesh mesh, int most) {
+/// Handles of a surface, of one with holes when they are filled; that there are as many as said is checked of the
+/// whole.
+int handles(catalog::TriangleMesh mesh) {
   if (mesh_topology(mesh).boundary_edges > 0) fill_holes(mesh);
-  return std::clamp(static_cast<int>(1 - mesh_topology(mesh).euler_number / 2), 0, most);
+  return std::max(0, static_cast<int>(1 - mesh_topology(mesh).euler_number / 2));
 }
 
 /// The checks of all bodies: numbers of repairs add up, of other figures the worst stays.
@@ -100,7 +101,7 @@ Solids repaired_pieces(const std::vector<SurfacePiece>& pieces, const RepairOpti
     if (is_cavity) turn_round(mesh);
     RepairOptions alone = options;
     if (pieces.size() == 1) alone.bodies = catalog::SeparateBodies::refuse;
-    alone.genus = handles(mesh, options.genus);
+    if (pieces.size() > 1) alone.genus = handles(mesh);
     RepairedMesh repaired = repaired_surface(cleaned_scan(mesh), alone);
     if (!repaired.refusal.empty()) {
       solids.refusal = "of " + std::to_string(pieces.size()) + " surfaces one cannot be repaired: " + repaired.refusal;
