@@ -78,6 +78,7 @@ std::string failed_names(const GrainEntry& grain) {
 // ---- All grains
 
 std::string lead(const DigitizingReport& report) {
+  if (report.grains.empty()) return "Outlines alone; no solids were asked for.";
   std::array<int, 4> grades{};
   int rejected = 0;
   for (const GrainEntry& grain : report.grains)

@@ -158,6 +158,11 @@ TEST(DigitizeReport, AMicrographHasItsOutlinesAndDistributions) {
   EXPECT_NEAR(std::stod(cell), 15.5e-6, 0.2e-6) << cell;
   EXPECT_NE(page.find("diameter of equal area [um]"), std::string::npos);
   EXPECT_NE(section_of(page, "black").find("is black"), std::string::npos);
+
+  EXPECT_EQ(digitize(folder, "powder.png --pixel '0.5 um' --population 0 --out tables --report alone.html").status, 0);
+  const std::string alone = read_bytes(folder / "alone.html");
+  EXPECT_NE(alone.find("no solids were asked for"), std::string::npos);
+  EXPECT_EQ(pictures_in(alone).size(), 1u);
 }
 
 TEST(DigitizeReport, AStackHasSlicesWithItsGrainsInColour) {
