@@ -48,6 +48,15 @@ ShapeId ShapeCatalog::store_shape(const ShapeRecord& shape) {
   return id;
 }
 
+void ShapeCatalog::remove_shape(const std::string& name) {
+  const std::optional<ShapeId> id = find(name);
+  if (!id) return;
+  Transaction transaction(connection_->database);
+  Statement(connection_->database, "DELETE FROM shapes WHERE id = ?").bind(*id).run();
+  sqlite::refresh_wide_descriptors(connection_->database);
+  transaction.commit();
+}
+
 void ShapeCatalog::store_rejected(const RejectedInput& rejected) {
   Transaction transaction(connection_->database);
   Statement(connection_->database, "INSERT OR REPLACE INTO rejected VALUES (?, ?, ?, ?)")

@@ -19,6 +19,7 @@ using ShapeId = std::int64_t;
 struct ShapeSummary {
   ShapeId id = 0;
   std::string name;
+  int grade = 3;      // 1 best to 3 worst, see grade_of()
   double volume = 0;  // [m3]
   std::size_t face_count = 0;
   std::map<std::string, double> descriptors;
@@ -53,8 +54,9 @@ class ShapeCatalog {
   ShapeCatalog(ShapeCatalog&&) noexcept;
   ShapeCatalog& operator=(ShapeCatalog&&) noexcept;
 
-  /// Stores or replaces the shape of that name; replacing drops its levels of detail.
+  /// Stores or replaces the shape of that name, with the grade of its checks; replacing drops its levels of detail.
   ShapeId store_shape(const ShapeRecord& shape);
+  void remove_shape(const std::string& name);  // with its levels; no write if there is none
   void store_rejected(const RejectedInput& rejected);
   void forget_rejected(const std::string& name);  // no write if there is no such row
   /// Stores or replaces the levels with the same keys, all in one transaction.
@@ -78,10 +80,10 @@ class ShapeCatalog {
   ///   operand     = word | literal
   ///   literal     = number | text                            (text in ' or ", the quote inside written twice)
   ///
-  /// Words, case ignored: the texts name, source_file; the numbers volume [m3], face_count, vertex_count,
-  /// failed_checks, level_count; every descriptor that some shape has. A comparison with a descriptor that a shape
-  /// lacks is neither true nor false, also under "not": the shape is selected only if the rest decides. An unknown word
-  /// is an InputError that names it and the nearest known one; a text compared with a number is one too.
+  /// Words, case ignored: the texts name, source_file; the numbers grade (1 best to 3 worst), volume [m3], face_count,
+  /// vertex_count, failed_checks, level_count; every descriptor that some shape has. A comparison with a descriptor
+  /// that a shape lacks is neither true nor false, also under "not": the shape is selected only if the rest decides. An
+  /// unknown word is an InputError that names it and the nearest known one; a text compared with a number is one too.
   std::vector<ShapeId> select(const std::string& query) const;
 
   int schema_version() const;

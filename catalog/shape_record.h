@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,14 @@ struct Check {
   std::string detail;  // one line: what was expected, unit of the figure
 };
 
+/// Where a shape lies in its source, such as a scan or a tomogram, whose lengths are taken in metres: a point p of the
+/// shape is the point origin + (p[0] axes[0] + p[1] axes[1] + p[2] axes[2]) / scale of the source.
+struct SourceFrame {
+  Matrix3 axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // of the shape, in the frame of the source
+  Point origin{};                                   // the shape's, in the frame of the source [m]
+  double scale = 1;                                 // length in the catalogue / length in the source
+};
+
 /// A digitised particle: watertight mesh in metres, centroid at the origin, principal axes along x, y, z
 /// (ascending moment of inertia, so the longest direction lies along x).
 struct ShapeRecord {
@@ -37,6 +46,7 @@ struct ShapeRecord {
   std::map<std::string, double> descriptors;  // key names the formula: "sphericity_wadell", "flatness_kong_fonseca"
   Provenance provenance;
   std::vector<Check> checks;
+  std::optional<SourceFrame> source_frame;  // none where it was not kept
 };
 
 /// Distances from points spread over one surface to another, over the bounding-box diagonal of the mesh [-].

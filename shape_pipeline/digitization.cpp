@@ -85,6 +85,7 @@ catalog::ShapeRecord described(Solid solid, const std::filesystem::path& scan, c
   shape.mass_properties.volume *= std::pow(factor, 3);
   for (double& inertia : shape.mass_properties.principal_inertia) inertia *= std::pow(factor, 5);
   for (const auto& [name, value] : shape_descriptors(shape.mesh)) shape.descriptors[name] = value;
+  shape.source_frame->scale = factor;
   shape.checks.push_back({"rescaled", true, factor, "size in the catalogue / size scanned"});
   return shape;
 }
@@ -99,6 +100,7 @@ catalog::ShapeRecord in_principal_frame(const catalog::TriangleMesh& mesh) {
     const Point arm = subtract(vertex, found.centroid);
     for (int i = 0; i < 3; ++i) vertex[i] = dot(found.principal_axes[i], arm);
   }
+  shape.source_frame = {found.principal_axes, found.centroid, 1};
   shape.mass_properties.volume = found.volume;
   shape.mass_properties.principal_inertia = found.principal_inertia;
   return shape;

@@ -33,7 +33,8 @@ catalog::ShapeRecord digitize(const std::filesystem::path& scan, const Digitizat
 catalog::ShapeRecord digitize_cloud(const PointCloud& cloud, const std::filesystem::path& scan,
                                     const DigitizationOptions& options, const std::vector<catalog::Check>& made);
 
-/// The mesh moved to its centroid and turned to its principal axes, with mass properties in that frame.
+/// The mesh moved to its centroid and turned to its principal axes, with mass properties in that frame and the mesh's
+/// own frame for its source's.
 catalog::ShapeRecord in_principal_frame(const catalog::TriangleMesh& mesh);
 
 }  // namespace shape_pipeline

@@ -103,6 +103,17 @@ void collect(const LabelImage& labels, const GreyImage& grey, const GreyLevels& 
   });
 }
 
+std::vector<ColourLine> overlay_lines(const Micrograph& micrograph) {
+  constexpr std::array<int, 3> kWhole{60, 230, 60}, kCut{255, 150, 0}, kStrip{80, 140, 255};
+  std::vector<ColourLine> lines;
+  for (const MicrographGrain& grain : micrograph.grains) lines.push_back({grain.outline, kWhole, true});
+  for (const MicrographGrain& grain : micrograph.at_border) lines.push_back({grain.outline, kCut, true});
+  if (!micrograph.bar.empty()) lines.push_back({micrograph.bar, kStrip, true});
+  const double top = micrograph.strip_top, width = micrograph.width;
+  if (micrograph.strip_top < micrograph.height) lines.push_back({{{0, top}, {width, top}}, kStrip, false});
+  return lines;
+}
+
 }  // namespace
 
 Micrograph digitize_micrograph(const fs::path& path, const MicrographOptions& options) {
@@ -128,14 +139,13 @@ Micrograph digitize_micrograph(const fs::path& path, const MicrographOptions& op
 }
 
 void write_overlay(const fs::path& path, const fs::path& image, const Micrograph& micrograph) {
-  constexpr std::array<int, 3> kWhole{60, 230, 60}, kCut{255, 150, 0}, kStrip{80, 140, 255};
-  std::vector<ColourLine> lines;
-  for (const MicrographGrain& grain : micrograph.grains) lines.push_back({grain.outline, kWhole, true});
-  for (const MicrographGrain& grain : micrograph.at_border) lines.push_back({grain.outline, kCut, true});
-  if (!micrograph.bar.empty()) lines.push_back({micrograph.bar, kStrip, true});
-  const double top = micrograph.strip_top, width = micrograph.width;
-  if (micrograph.strip_top < micrograph.height) lines.push_back({{{0, top}, {width, top}}, kStrip, false});
-  write_picture(path, read_image(image), lines);
+  write_picture(path, read_image(image), overlay_lines(micrograph));
+}
+
+ColourImage overlay(const fs::path& image, const Micrograph& micrograph, int largest_side) {
+  const GreyImage grey = read_image(image);
+  const double largest = std::max(grey.width, grey.height);
+  return picture_of(grey, overlay_lines(micrograph), std::min(1.0, largest_side / largest));
 }
 
 bool has_image_ending(const fs::path& path) {

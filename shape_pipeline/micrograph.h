@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "shape_pipeline/colour_image.h"
 #include "shape_pipeline/outline_descriptors.h"
 
 namespace shape_pipeline {
@@ -39,6 +40,9 @@ Micrograph digitize_micrograph(const std::filesystem::path& path, const Microgra
 
 /// The outlines over the image as PNG: whole grains green, cut ones orange, scale bar and strip blue.
 void write_overlay(const std::filesystem::path& path, const std::filesystem::path& image, const Micrograph& micrograph);
+
+/// The same as pixels, at most `largest_side` of them a side.
+ColourImage overlay(const std::filesystem::path& image, const Micrograph& micrograph, int largest_side);
 
 /// True for the endings of images that no other scan has: png, jpg, jpeg, bmp.
 bool has_image_ending(const std::filesystem::path& path);

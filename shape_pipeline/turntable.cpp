@@ -145,6 +145,22 @@ VisualHull hull_of(const std::vector<HullView>& views, const std::string& name, 
   return *std::move(hull);
 }
 
+/// The view, shrunk, with the rim of what the hull covers in red.
+ColourImage outlined_view(const GreyImage& view, const Raster<float>& covered, double scale) {
+  constexpr Colour kOutline{230, 40, 40};
+  ColourImage picture = picture_of(view, {}, scale);
+  const auto is_inside = [&](int x, int y) {
+    const int column = static_cast<int>((x + 0.5) / scale), row = static_cast<int>((y + 0.5) / scale);
+    return covered.has(column, row) && covered(column, row) > 0.5F;
+  };
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x)
+      if (is_inside(x, y) &&
+          !(is_inside(x - 1, y) && is_inside(x + 1, y) && is_inside(x, y - 1) && is_inside(x, y + 1)))
+        picture(x, y) = kOutline;
+  return picture;
+}
+
 }  // namespace
 
 std::vector<fs::path> turntable_sources(const fs::path& folder) {
@@ -206,6 +222,26 @@ catalog::ShapeRecord digitize_turntable(TurntableViews views, const std::string&
   shape.checks.insert(shape.checks.end(), remeshed.checks.begin(), remeshed.checks.end());
   shape.descriptors = shape_descriptors(shape.mesh);
   return shape;
+}
+
+std::vector<ViewPicture> hull_pictures(TurntableViews views, double axis_column, const catalog::TriangleMesh& hull,
+                                       std::size_t count, int largest_side) {
+  refuse_odd_sizes(views);
+  views.camera.axis_column = axis_column;
+  const std::vector<double> angles = view_angles(views.camera, views.names.size());
+  std::vector<std::size_t> usable;
+  for (std::size_t k = 0; k < views.names.size(); ++k)
+    if (views.refusals[k].empty()) usable.push_back(k);
+  count = std::min(count, usable.size());
+  std::vector<ViewPicture> pictures;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t k = usable[i * usable.size() / count];
+    const GreyImage& view = views.images[k];
+    const Raster<float> covered = mesh_coverage(hull, {views.camera, angles[k], view.height}, view.width, view.height);
+    const double scale = std::min(1.0, static_cast<double>(largest_side) / std::max(view.width, view.height));
+    pictures.push_back({fs::path(views.names[k]).filename().string(), outlined_view(view, covered, scale)});
+  }
+  return pictures;
 }
 
 }  // namespace shape_pipeline

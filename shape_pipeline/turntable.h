@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "catalog/shape_record.h"
+#include "shape_pipeline/colour_image.h"
 #include "shape_pipeline/mesh_remeshing.h"
 #include "shape_pipeline/micrographs/raster.h"
 #include "shape_pipeline/silhouettes/turntable_camera.h"
@@ -43,5 +44,17 @@ TurntableViews read_turntable(const std::filesystem::path& folder, const Turntab
 /// "turntable_axis", "turntable_resolution", "silhouettes_explained", "visual_hull". Throws InputError, calling the
 /// views `name`, for fewer than 3 that can be used and for views that do not bound a grain or fit together nowhere.
 catalog::ShapeRecord digitize_turntable(TurntableViews views, const std::string& name, const TurntableOptions& options);
+
+/// One view with the outline of a hull over it.
+struct ViewPicture {
+  std::string name;
+  ColourImage image;
+};
+
+/// At most `count` of the views that can be used, spread over the turn, each at most `largest_side` pixels a side, with
+/// the outline that the hull (in the frame of the turntable) has in it, red. `axis_column` as "turntable_axis" found
+/// it.
+std::vector<ViewPicture> hull_pictures(TurntableViews views, double axis_column, const catalog::TriangleMesh& hull,
+                                       std::size_t count, int largest_side);
 
 }  // namespace shape_pipeline

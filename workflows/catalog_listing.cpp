@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "catalog/grade.h"
 #include "workflows/error_json.h"
 #include "workflows/level_choice.h"
 #include "workflows/population/zingg_class.h"
@@ -156,13 +157,13 @@ double equivalent_diameter(double volume) { return std::cbrt(6 * volume / std::n
 
 std::string list_text(const std::vector<ShapeSummary>& shapes) {
   const std::vector<std::string> descriptors = columns_for(shapes);
-  Row header{"name", "volume[mm3]", "d_eq[mm]", "faces"};
+  Row header{"name", "grade", "volume[mm3]", "d_eq[mm]", "faces"};
   header.insert(header.end(), descriptors.begin(), descriptors.end());
   header.insert(header.end(), {"zingg", "levels", "failed checks"});
   std::vector<Row> rows{header};
   for (const ShapeSummary& shape : shapes) {
-    Row row{shape.name, figure(shape.volume * 1e9), figure(equivalent_diameter(shape.volume) * 1e3),
-            std::to_string(shape.face_count)};
+    Row row{shape.name, std::to_string(shape.grade), figure(shape.volume * 1e9),
+            figure(equivalent_diameter(shape.volume) * 1e3), std::to_string(shape.face_count)};
     for (const std::string& name : descriptors) {
       const auto found = shape.descriptors.find(name);
       row.push_back(found == shape.descriptors.end() ? "-" : figure(found->second));
@@ -181,6 +182,7 @@ std::string list_json(const std::vector<ShapeSummary>& shapes) {
     const std::optional<std::string> zingg = zingg_name(shape);
     list.push_back({{"id", shape.id},
                     {"name", shape.name},
+                    {"grade", shape.grade},
                     {"volume", shape.volume},
                     {"equivalent_diameter", equivalent_diameter(shape.volume)},
                     {"face_count", shape.face_count},
@@ -202,6 +204,8 @@ std::string show_text(const catalog::ShapeRecord& shape, const ShapeSummary& sum
           std::to_string(shape.mesh.face_count()) + " faces\n";
   text += "  centroid             " + triple(mass.centroid) + " m\n";
   text += "  principal inertia    " + triple(mass.principal_inertia) + " m5 (density 1)\n";
+  text +=
+      "  grade                " + std::to_string(summary.grade) + ": " + catalog::grade_meaning(summary.grade) + "\n";
   text += "provenance\n";
   text += "  source               " + shape.provenance.source_file + "\n";
   text += "  sha256               " + shape.provenance.source_sha256 + "\n";
@@ -235,6 +239,7 @@ std::string show_json(const catalog::ShapeRecord& shape, const ShapeSummary& sum
   const catalog::MassProperties& mass = shape.mass_properties;
   return finished("shape", {{"id", summary.id},
                             {"name", shape.name},
+                            {"grade", summary.grade},
                             {"vertex_count", shape.mesh.vertex_count()},
                             {"face_count", shape.mesh.face_count()},
                             {"volume", mass.volume},

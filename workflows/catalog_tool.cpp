@@ -64,7 +64,8 @@ void declare_options(CLI::App& app, CatalogOptions& options) {
                            "\"rock%\"'\nNames of the shapes that an expression selects.");
   query
       ->add_option("EXPR", options.expression,
-                   "and, or, not, ( ), < <= > >= = !=, like, in over name, volume [m3], face_count, vertex_count, "
+                   "and, or, not, ( ), < <= > >= = !=, like, in over name, grade (1 best to 3), volume [m3], "
+                   "face_count, vertex_count, "
                    "failed_checks, level_count, source_file and any descriptor")
       ->required();
   CLI::App* sample =

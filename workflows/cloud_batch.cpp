@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 #include "catalog/input_error.h"
@@ -11,6 +12,7 @@
 #include "shape_pipeline/registration.h"
 #include "shape_pipeline/scan_file.h"
 #include "workflows/batch_refusal.h"
+#include "workflows/grain_series.h"
 #include "workflows/text_format.h"
 
 namespace workflows {
@@ -66,12 +68,12 @@ void CloudBatch::run() {
   for (const Job& job : jobs_) {
     progress_.step(job.name);
     const std::string reason = refusal_of(job.files.front().string(), [&] { digitize(job); });
-    if (!reason.empty()) reject(job, job.name, "", reason);
+    if (!reason.empty()) reject(job, job.name, hash_if_readable(job.files), reason);
   }
   progress_.finish();
 }
 
-CloudBatch::Grain CloudBatch::merged(const Job& job) {
+CloudBatch::Grain CloudBatch::merged(const Job& job) const {
   Grain whole;
   std::vector<PartialScan> parts;
   for (const fs::path& file : job.files) {
@@ -83,7 +85,7 @@ CloudBatch::Grain CloudBatch::merged(const Job& job) {
     reading.drops_nan_points = digitization_.drops_nan_points;
     shape_pipeline::CloudFile read = shape_pipeline::read_cloud(file, reading);
     whole.checks.insert(whole.checks.end(), read.notes.begin(), read.notes.end());
-    if (const std::string note = sampling_note(file, read.notes); !note.empty()) progress_.note(note);
+    if (const std::string note = sampling_note(file, read.notes); !note.empty()) whole.notes.push_back(note);
     PointCloud cloud = std::move(read.cloud);
     if (settings_.removes_plane) {
       shape_pipeline::ClearedCloud cleared = shape_pipeline::without_floor(cloud, file.string());
@@ -102,6 +104,12 @@ CloudBatch::Grain CloudBatch::merged(const Job& job) {
   return whole;
 }
 
+PointCloud CloudBatch::source_cloud(const fs::path& file) const {
+  for (const Job& job : jobs_)
+    if (job.files.front() == file) return merged(job).cloud;
+  throw std::invalid_argument(file.string() + ": is no source of this batch");
+}
+
 void CloudBatch::digitize(const Job& job) {
   for (const fs::path& file : job.files) {
     std::error_code error;
@@ -112,22 +120,28 @@ void CloudBatch::digitize(const Job& job) {
                                        options_text(options_.settings, settings_)};
   if (is_done(job, provenance)) return;
   const Grain whole = merged(job);
-  if (!settings_.is_separated) return store(job, job.name, provenance, whole);
+  for (const std::string& note : whole.notes) progress_.note(note);
+  const GrainSeries series{job.name, kPlateDigits};
+  if (!settings_.is_separated) {
+    remove_stale_grains(catalog_, series, 0, provenance, progress_);
+    return store(job, job.name, provenance, whole);
+  }
 
   const auto found = shape_pipeline::separated_grains(whole.cloud, static_cast<std::size_t>(settings_.grain_points));
   if (found.grains.empty() && found.small.empty())
     throw catalog::InputError(job.files.front().string() + ": holds no grain; scan more points");
+  remove_stale_grains(catalog_, series, found.grains.size(), provenance, progress_);
   catalog_.forget_rejected(job.name);
   std::size_t number = 0;
   for (const PointCloud& cloud : found.grains) {
-    Grain grain{cloud, whole.checks};
+    Grain grain{cloud, whole.checks, {}};
     grain.checks.push_back({kGrainsCheck, true, static_cast<double>(found.grains.size()), "grains of this cloud"});
     grain.checks.push_back({"grain_gap", true, found.gap, "distance that separates two grains [m]"});
-    store(job, job.name + formatted("_%02zu", ++number), provenance, grain);
+    store(job, series.name(++number), provenance, grain);
   }
   for (const std::size_t points : found.small) {
     ++number;
-    reject(job, job.name + formatted("_%02zu", number), provenance.source_sha256,
+    reject(job, series.name(number), provenance.source_sha256,
            job.files.front().string() +
                formatted(": grain %zu has %zu points, expected at least %d", number, points, settings_.grain_points) +
                "; scan it with more points or lower --grain-points");
@@ -139,7 +153,7 @@ bool CloudBatch::is_done(const Job& job, const catalog::Provenance& provenance) 
   std::vector<DigitizedScan> known;
   std::size_t expected = 1;
   for (std::size_t g = 1; g <= expected; ++g) {
-    const std::string name = settings_.is_separated ? job.name + formatted("_%02zu", g) : job.name;
+    const std::string name = settings_.is_separated ? GrainSeries{job.name, kPlateDigits}.name(g) : job.name;
     const auto id = catalog_.find(name);
     if (!id) return false;
     const catalog::ShapeRecord shape = catalog_.shape(*id);

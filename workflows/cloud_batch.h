@@ -31,7 +31,12 @@ class CloudBatch {
   CloudBatch(const DigitizeBatchOptions& options, const CloudSettings& settings);
   void run();
 
+  const DigitizeBatchOptions& options() const { return options_; }
   const std::vector<DigitizedScan>& outcomes() const { return outcomes_; }
+
+  /// The points that the grains of a source were made from: registered, cleared of floors. `file`: its first one.
+  /// Throws InputError as run() rejects.
+  shape_pipeline::PointCloud source_cloud(const std::filesystem::path& file) const;
 
  private:
   /// Files that become one cloud.
@@ -42,10 +47,11 @@ class CloudBatch {
   struct Grain {
     shape_pipeline::PointCloud cloud;
     std::vector<catalog::Check> checks;
+    std::vector<std::string> notes;  // for who runs the batch
   };
   void digitize(const Job& job);
   bool is_done(const Job& job, const catalog::Provenance& provenance);
-  Grain merged(const Job& job);
+  Grain merged(const Job& job) const;
   void store(const Job& job, const std::string& name, const catalog::Provenance& provenance, const Grain& grain);
   void reject(const Job& job, const std::string& name, const std::string& hash, const std::string& reason);
 

@@ -19,6 +19,10 @@
 #include "workflows/stack_batch.h"
 #include "workflows/stage_tool.h"
 #include "workflows/turntable_batch.h"
+#ifdef TALUS_WITH_REPORT
+#include "workflows/atomic_file.h"
+#include "workflows/digitize_report/digitize_report.h"
+#endif
 #include "workflows/units.h"
 
 namespace workflows {
@@ -33,7 +37,7 @@ struct CommandLine {
   StackSettings stack;
   MicrographSettings micrograph;
   TurntableSettings turntable;
-  fs::path virtual_scan_folder;
+  fs::path virtual_scan_folder, report;
   int count = 4, points = 6000;
   std::uint64_t seed = 1;
   std::string noise = "0.03 mm";
@@ -154,6 +158,10 @@ void declare_options(CLI::App& app, CommandLine& line) {
   declare_micrograph_options(app, line.micrograph);
   declare_turntable_options(app, line.turntable);
   app.add_flag("--json", line.is_json, "one JSON object a scan on stdout");
+#ifdef TALUS_WITH_REPORT
+  app.add_option("--report", line.report,
+                 "page to write: of each grain the input, the result, a map of its deviation, figures and checks");
+#endif
   app.add_option("--make-virtual-scans", line.virtual_scan_folder, "write virtual scans into this folder and stop");
   app.add_option("--count", line.count, "virtual scans")->check(CLI::Range(1, 10000))->capture_default_str();
   add_seed(app, "--seed", line.seed, "seed of the virtual scans, or of a population");
@@ -172,6 +180,7 @@ void print_json(const std::vector<DigitizedScan>& outcomes) {
     if (outcome.is_bad()) {
       row["reason"] = outcome.reason;
     } else {
+      row["grade"] = outcome.summary.grade;
       row["descriptors"] = outcome.summary.descriptors;
       row["failed_checks"] = outcome.summary.failed_checks;
     }
@@ -180,8 +189,8 @@ void print_json(const std::vector<DigitizedScan>& outcomes) {
 }
 
 void print_table(const std::vector<DigitizedScan>& outcomes) {
-  std::printf("%-28s %-8s %12s %12s %10s %7s %10s %9s  %s\n", "name", "status", "volume[m3]", "area[m2]", "sieve[m]",
-              "faces", "sphericity", "convexity", "checks not passed");
+  std::printf("%-28s %-8s %5s %12s %12s %10s %7s %10s %9s  %s\n", "name", "status", "grade", "volume[m3]", "area[m2]",
+              "sieve[m]", "faces", "sphericity", "convexity", "checks not passed");
   for (const DigitizedScan& outcome : outcomes) {
     if (outcome.is_bad()) {
       std::printf("%-28s %-8s\n", outcome.name.c_str(), outcome.status.c_str());
@@ -193,10 +202,10 @@ void print_table(const std::vector<DigitizedScan>& outcomes) {
     };
     std::string failed;
     for (const std::string& check : outcome.summary.failed_checks) failed += (failed.empty() ? "" : ", ") + check;
-    std::printf("%-28s %-8s %12.5g %12.5g %10.4g %7zu %10.4f %9.4f  %s\n", outcome.name.c_str(), outcome.status.c_str(),
-                outcome.summary.volume, value("surface_area"), value("sieve_size_second_axis"),
-                outcome.summary.face_count, value("sphericity_wadell"), value("convexity_volume_ratio"),
-                failed.empty() ? "-" : failed.c_str());
+    std::printf("%-28s %-8s %5d %12.5g %12.5g %10.4g %7zu %10.4f %9.4f  %s\n", outcome.name.c_str(),
+                outcome.status.c_str(), outcome.summary.grade, outcome.summary.volume, value("surface_area"),
+                value("sieve_size_second_axis"), outcome.summary.face_count, value("sphericity_wadell"),
+                value("convexity_volume_ratio"), failed.empty() ? "-" : failed.c_str());
   }
 }
 
@@ -217,6 +226,15 @@ int make_virtual_scans(const CommandLine& line) {
 }
 
 template <class Batch>
+void write_report(const CommandLine& line, const Batch& batch) {
+#ifdef TALUS_WITH_REPORT
+  if (!line.report.empty()) write_whole(line.report, postprocess::digitizing_report_html(report_of(batch)));
+#else
+  static_cast<void>(line), static_cast<void>(batch);
+#endif
+}
+
+template <class Batch>
 int run_batch(const CommandLine& line, Batch batch) {
   const std::vector<DigitizedScan>& outcomes = batch.outcomes();
   const auto print = [&] { line.is_json ? print_json(outcomes) : print_table(outcomes); };
@@ -228,6 +246,7 @@ int run_batch(const CommandLine& line, Batch batch) {
     throw;
   }
   print();
+  write_report(line, batch);
   const std::string bad = failures_text(outcomes), failed = failed_checks_text(outcomes);
   for (const std::string& text : {bad, failed})
     if (!text.empty()) std::fprintf(stderr, "digitize: %s", text.c_str());
@@ -236,6 +255,9 @@ int run_batch(const CommandLine& line, Batch batch) {
 }
 
 int digitize_batch(const CommandLine& line) {
+#ifdef TALUS_WITH_REPORT
+  if (!line.report.empty()) require_place_for_report(line.report, line.batch.catalog_path);
+#endif
   if (line.batch.inputs.empty())
     throw catalog::UsageError("no scan named; give files or folders, or --make-virtual-scans DIR");
   if (line.cloud.are_given()) {

@@ -13,6 +13,7 @@
 #include "catalog/input_error.h"
 #include "shape_pipeline/scan_file.h"
 #include "workflows/batch_refusal.h"
+#include "workflows/grain_series.h"
 #include "workflows/in_order.h"
 #include "workflows/units.h"
 
@@ -231,6 +232,7 @@ DigitizedScan DigitizeBatch::stored(std::size_t s, Prepared&& prepared) {
     prepared.shape->name = name;
     prepared.shape->provenance = prepared.provenance;
     if (const std::string note = sampling_note(scans_[s], prepared.shape->checks); !note.empty()) progress_.note(note);
+    remove_stale_grains(*catalog_, {name, kPlateDigits}, 0, prepared.provenance, progress_);
     catalog_->store_shape(*prepared.shape);
   }
   outcome.summary = catalog_->summary(*catalog_->find(name));

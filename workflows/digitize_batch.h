@@ -64,6 +64,8 @@ class DigitizeBatch {
   explicit DigitizeBatch(const DigitizeBatchOptions& options);
   void run();
 
+  const DigitizeBatchOptions& options() const { return options_; }
+
   /// Of the scans done, in the order of the scans.
   const std::vector<DigitizedScan>& outcomes() const { return outcomes_; }
 

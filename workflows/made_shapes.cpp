@@ -45,19 +45,21 @@ std::vector<MadeShape> make_shapes(catalog::ShapeCatalog& catalog, const std::ve
 int report_made_shapes(const std::string& stage, const std::vector<MadeShape>& shapes, bool is_json) {
   std::string failed;
   if (!is_json)
-    std::printf("%-28s %-8s %12s %10s %7s %7s %7s %10s %10s %10s\n", "name", "status", "volume[m3]", "sieve[m]",
-                "faces", "S/I", "I/L", "sphericity", "convexity", "angularity");
+    std::printf("%-28s %-8s %5s %12s %10s %7s %7s %7s %10s %10s %10s\n", "name", "status", "grade", "volume[m3]",
+                "sieve[m]", "faces", "S/I", "I/L", "sphericity", "convexity", "angularity");
   for (const MadeShape& shape : shapes) {
     if (is_json) {
       const nlohmann::ordered_json row{{"name", shape.name},
                                        {"status", shape.status},
+                                       {"grade", shape.summary.grade},
                                        {"descriptors", shape.summary.descriptors},
                                        {"failed_checks", shape.summary.failed_checks}};
       std::printf("%s\n", row.dump().c_str());
     } else {
-      std::printf("%-28s %-8s %12.5g %10.4g %7zu %7.4f %7.4f %10.4f %10.4f %10.4f\n", shape.name.c_str(),
-                  shape.status.c_str(), shape.summary.volume, descriptor(shape, "sieve_size_second_axis"),
-                  shape.summary.face_count, descriptor(shape, "zingg_s_over_i"), descriptor(shape, "zingg_i_over_l"),
+      std::printf("%-28s %-8s %5d %12.5g %10.4g %7zu %7.4f %7.4f %10.4f %10.4f %10.4f\n", shape.name.c_str(),
+                  shape.status.c_str(), shape.summary.grade, shape.summary.volume,
+                  descriptor(shape, "sieve_size_second_axis"), shape.summary.face_count,
+                  descriptor(shape, "zingg_s_over_i"), descriptor(shape, "zingg_i_over_l"),
                   descriptor(shape, "sphericity_wadell"), descriptor(shape, "convexity_volume_ratio"),
                   descriptor(shape, "angularity_corner_radius"));
     }

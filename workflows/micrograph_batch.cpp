@@ -14,6 +14,7 @@
 #include "shape_pipeline/described_shape.h"
 #include "workflows/atomic_file.h"
 #include "workflows/batch_refusal.h"
+#include "workflows/grain_series.h"
 #include "workflows/micrograph_tables.h"
 #include "workflows/plain_name.h"
 #include "workflows/text_format.h"
@@ -169,7 +170,7 @@ void MicrographBatch::run() {
 }
 
 void MicrographBatch::digitize(const fs::path& image) {
-  const Micrograph micrograph = digitize_micrograph(image, image_options_);
+  Micrograph micrograph = digitize_micrograph(image, image_options_);
   const std::string stem = image.stem().string();
   if (!is_plain_name(stem)) throw catalog::InputError(image.string() + ": " + kPlainName);
   write_whole(settings_.out / (stem + ".csv"), outline_table(stem, micrograph));
@@ -184,6 +185,7 @@ void MicrographBatch::digitize(const fs::path& image) {
   read_.push_back(image);
   if (catalog_) catalog_->forget_rejected(stem);
   progress_.note(summary_text(image.filename().string(), micrograph));
+  micrographs_.push_back({image, std::move(micrograph)});
 }
 
 void MicrographBatch::store_population() {
@@ -191,6 +193,7 @@ void MicrographBatch::store_population() {
   if (is_done(provenance)) return;
   const shape_pipeline::MatchedPopulation population =
       matched_population(outlines_, coarsest_pixel_, population_options_);
+  remove_stale_grains(*catalog_, {name_}, static_cast<std::size_t>(settings_.population), provenance, progress_);
   catalog_->forget_rejected(name_ + "_population");
   write_whole(settings_.out / (name_ + "_population.json"), population_json(population, provenance));
   std::vector<catalog::Check> checks{{"assumed_third_axis", true, population_options_.third_axis,
@@ -222,7 +225,7 @@ bool MicrographBatch::is_done(const catalog::Provenance& provenance) {
 }
 
 void MicrographBatch::reject(const fs::path& source, const std::string& name, const std::string& reason) {
-  if (catalog_) catalog_->store_rejected({name, source.filename().string(), "", reason});
+  if (catalog_) catalog_->store_rejected({name, source.filename().string(), hash_if_readable({source}), reason});
   progress_.note("rejected: " + reason);
   outcomes_.push_back({source, name, "rejected", reason, {}});
 }
@@ -239,6 +242,8 @@ catalog::Provenance MicrographBatch::provenance_of(const std::vector<fs::path>& 
   return {names, hash, tool_version(), options_text(settings_)};
 }
 
-std::string MicrographBatch::shape_name(int number) const { return name_ + formatted("_%04d", number); }
+std::string MicrographBatch::shape_name(int number) const {
+  return GrainSeries{name_}.name(static_cast<std::size_t>(number));
+}
 
 }  // namespace workflows

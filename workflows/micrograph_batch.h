@@ -28,6 +28,12 @@ struct MicrographSettings {
   bool is_asked_for() const { return !pixel.empty() || !scale_bar.empty(); }
 };
 
+/// An image with what was found in it.
+struct ReadMicrograph {
+  std::filesystem::path image;
+  shape_pipeline::Micrograph micrograph;
+};
+
 /// True if the inputs are micrographs: images by their endings, or a pixel size or scale bar is given. Throws
 /// UsageError for images and other scans in one batch.
 bool are_micrographs(const DigitizeBatchOptions& options, const MicrographSettings& settings);
@@ -41,6 +47,9 @@ class MicrographBatch {
  public:
   MicrographBatch(const DigitizeBatchOptions& options, const MicrographSettings& settings);
   void run();
+
+  const DigitizeBatchOptions& options() const { return options_; }
+  const std::vector<ReadMicrograph>& micrographs() const { return micrographs_; }
 
   /// Of the shapes, and of images that cannot be read.
   const std::vector<DigitizedScan>& outcomes() const { return outcomes_; }
@@ -63,6 +72,7 @@ class MicrographBatch {
   BatchProgress progress_;
   std::vector<shape_pipeline::Outline> outlines_;  // of all images so far [m]
   double coarsest_pixel_ = 0;                      // [m]
+  std::vector<ReadMicrograph> micrographs_;
   std::vector<DigitizedScan> outcomes_;
 };
 

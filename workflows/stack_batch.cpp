@@ -11,6 +11,7 @@
 
 #include "catalog/input_error.h"
 #include "workflows/batch_refusal.h"
+#include "workflows/grain_series.h"
 #include "workflows/units.h"
 
 namespace workflows {
@@ -81,10 +82,14 @@ std::string options_text(const DigitizeBatchOptions& batch, const StackSettings&
   return options.dump();
 }
 
-std::string grain_name(const std::string& stack, std::size_t number) {
-  char text[24];
-  std::snprintf(text, sizeof text, "_%04zu", number);
-  return stack + text;
+/// The stack's own path, without the slash that a folder's name may end in.
+fs::path without_slash(const fs::path& stack) { return stack.has_filename() ? stack : stack.parent_path(); }
+
+/// None where the stack cannot be looked into.
+std::vector<fs::path> sources_if_readable(const fs::path& stack) {
+  std::vector<fs::path> sources;
+  refusal_of(stack.string(), [&] { sources = shape_pipeline::stack_sources(stack); });
+  return sources;
 }
 
 std::string summary_text(const std::string& name, const shape_pipeline::StackSummary& summary) {
@@ -125,7 +130,8 @@ void StackBatch::run() {
     const std::string reason = refusal_of(stack.string(), [&] { digitize(stack); });
     if (reason.empty()) continue;
     const std::string name = stack_name(stack);
-    catalog_.store_rejected({name, name, "", reason});
+    catalog_.store_rejected(
+        {name, without_slash(stack).filename().string(), hash_if_readable(sources_if_readable(stack)), reason});
     progress_.note("rejected: " + reason);
     outcomes_.push_back({stack, name, "rejected", reason, {}});
   }
@@ -134,34 +140,37 @@ void StackBatch::run() {
 
 void StackBatch::digitize(const fs::path& stack) {
   const std::string name = stack_name(stack);
-  const fs::path clean = stack.has_filename() ? stack : stack.parent_path();
-  const catalog::Provenance provenance{clean.filename().string(), hash_of_files(shape_pipeline::stack_sources(stack)),
-                                       tool_version(), options_text(options_, settings_)};
-  if (is_done(name, provenance)) return;
+  const GrainSeries series{name};
+  const catalog::Provenance provenance{without_slash(stack).filename().string(),
+                                       hash_of_files(shape_pipeline::stack_sources(stack)), tool_version(),
+                                       options_text(options_, settings_)};
+  if (is_done(stack, provenance)) return;
   std::vector<shape_pipeline::StackGrain> grains;  // their number, which the first already tells, is known at the end
   const shape_pipeline::StackSummary summary = shape_pipeline::digitize_stack(
       stack, stack_options_, [&](shape_pipeline::StackGrain&& grain) { grains.push_back(std::move(grain)); });
+  const std::size_t stored = summary.grains - summary.refused;
+  remove_stale_grains(catalog_, series, stored, provenance, progress_);
   catalog_.forget_rejected(name);
   for (std::size_t g = 0; g < grains.size(); ++g) {
-    grains[g].shape.checks.push_back(
-        {kSizeCheck, true, static_cast<double>(summary.grains - summary.refused), "grains stored of this stack"});
-    store(stack, grain_name(name, g + 1), provenance, std::move(grains[g]));
+    grains[g].shape.checks.push_back({kSizeCheck, true, static_cast<double>(stored), "grains stored of this stack"});
+    store(stack, series.name(g + 1), provenance, std::move(grains[g]));
   }
   progress_.note(summary_text(name, summary));
 }
 
 /// Grains are stored from the largest down, and those refused come last.
-bool StackBatch::is_done(const std::string& name, const catalog::Provenance& provenance) {
+bool StackBatch::is_done(const fs::path& stack, const catalog::Provenance& provenance) {
+  const GrainSeries series{stack_name(stack)};
   std::vector<DigitizedScan> found;
   std::size_t expected = 1;
   for (std::size_t g = 1; g <= expected; ++g) {
-    const auto id = catalog_.find(grain_name(name, g));
+    const auto id = catalog_.find(series.name(g));
     if (!id) return false;
     const catalog::ShapeRecord shape = catalog_.shape(*id);
     if (!have_one_source(shape.provenance, provenance)) return false;
     for (const catalog::Check& check : shape.checks)
       if (check.name == kSizeCheck) expected = static_cast<std::size_t>(check.figure);
-    found.push_back({provenance.source_file, grain_name(name, g), "skipped", "", catalog_.summary(*id)});
+    found.push_back({stack, series.name(g), "skipped", "", catalog_.summary(*id)});
   }
   outcomes_.insert(outcomes_.end(), found.begin(), found.end());
   return true;
@@ -185,7 +194,7 @@ void StackBatch::store(const fs::path& stack, const std::string& name, const cat
 
 std::string StackBatch::stack_name(const fs::path& stack) const {
   if (!options_.name.empty()) return options_.name;
-  const fs::path clean = stack.has_filename() ? stack : stack.parent_path();
+  const fs::path clean = without_slash(stack);
   return fs::is_directory(stack) ? clean.filename().string() : clean.stem().string();
 }
 

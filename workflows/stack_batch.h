@@ -33,12 +33,15 @@ class StackBatch {
   StackBatch(const DigitizeBatchOptions& options, const StackSettings& settings);
   void run();
 
+  const DigitizeBatchOptions& options() const { return options_; }
+  const shape_pipeline::StackOptions& pipeline_options() const { return stack_options_; }
+
   /// Of the grains, or of the stack where there are none.
   const std::vector<DigitizedScan>& outcomes() const { return outcomes_; }
 
  private:
   void digitize(const std::filesystem::path& stack);
-  bool is_done(const std::string& name, const catalog::Provenance& provenance);
+  bool is_done(const std::filesystem::path& stack, const catalog::Provenance& provenance);
   void store(const std::filesystem::path& stack, const std::string& name, const catalog::Provenance& provenance,
              shape_pipeline::StackGrain&& grain);
   std::string stack_name(const std::filesystem::path& stack) const;

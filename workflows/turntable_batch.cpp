@@ -7,6 +7,7 @@
 
 #include "catalog/input_error.h"
 #include "workflows/batch_refusal.h"
+#include "workflows/grain_series.h"
 #include "workflows/units.h"
 
 namespace workflows {
@@ -64,7 +65,9 @@ void TurntableBatch::run() {
     progress_.step(name);
     const std::string reason = refusal_of(folder.string(), [&] { digitize(folder); });
     if (reason.empty()) continue;
-    catalog_.store_rejected({name, without_slash(folder).filename().string(), "", reason});
+    std::vector<fs::path> sources;  // none where the folder cannot be looked into
+    refusal_of(folder.string(), [&] { sources = shape_pipeline::turntable_sources(folder); });
+    catalog_.store_rejected({name, without_slash(folder).filename().string(), hash_if_readable(sources), reason});
     progress_.note("rejected: " + reason);
     outcomes_.push_back({folder, name, "rejected", reason, {}});
   }

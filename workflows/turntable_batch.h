@@ -27,6 +27,9 @@ class TurntableBatch {
   TurntableBatch(const DigitizeBatchOptions& options, const TurntableSettings& settings);
   void run();
 
+  const DigitizeBatchOptions& options() const { return options_; }
+  const shape_pipeline::TurntableOptions& pipeline_options() const { return turntable_; }
+
   /// Of the folders, in their order.
   const std::vector<DigitizedScan>& outcomes() const { return outcomes_; }
 

@@ -147,6 +147,24 @@ MassProperties decode_mass_properties(const Bytes& bytes) {
   return properties;
 }
 
+Bytes encode_source_frame(const SourceFrame& frame) {
+  Writer writer;
+  writer.put(frame.axes);
+  writer.put(frame.origin);
+  writer.put(frame.scale);
+  return writer.take();
+}
+
+SourceFrame decode_source_frame(const Bytes& bytes) {
+  Reader reader(bytes);
+  SourceFrame frame;
+  frame.axes = reader.get<Matrix3>();
+  frame.origin = reader.get<Point>();
+  frame.scale = reader.get<double>();
+  reader.expect_end();
+  return frame;
+}
+
 Bytes compressed(const Bytes& bytes) {
   uLongf size = compressBound(static_cast<uLong>(bytes.size()));
   Bytes stream(size);

@@ -28,6 +28,7 @@ struct Column {
 };
 constexpr Column kColumns[] = {
     {"name", "shapes.name", true},
+    {"grade", "shapes.grade", false},
     {"volume", "shapes.volume", false},
     {"face_count", "(SELECT face_count FROM meshes WHERE shape_id = shapes.id)", false},
     {"vertex_count", "(SELECT vertex_count FROM meshes WHERE shape_id = shapes.id)", false},

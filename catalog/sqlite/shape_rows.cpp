@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "catalog/sqlite/shape_rows.h"
 
+#include "catalog/grade.h"
 #include "catalog/input_error.h"
 #include "catalog/sqlite/encoding.h"
 #include "catalog/sqlite/level_rows.h"
@@ -61,10 +62,12 @@ ShapeId write_shape(const Database& database, const ShapeRecord& shape) {
   Statement(database, "DELETE FROM shapes WHERE id = ?").bind(id).run();
   Statement(database, "DELETE FROM rejected WHERE name = ?").bind(shape.name).run();
 
-  Statement row(database, "INSERT INTO shapes VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  Statement row(database, "INSERT INTO shapes VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)");
   row.bind(id, shape.name);
   add_mass_properties(row, shape.mass_properties);
   add_provenance(row, shape.provenance);
+  row.add(grade_of(shape.checks));
+  if (shape.source_frame) row.add(encode_source_frame(*shape.source_frame));  // else NULL
   row.run();
   write_mesh(database, id, shape.mesh);
 
@@ -79,8 +82,8 @@ ShapeId write_shape(const Database& database, const ShapeRecord& shape) {
 
 ShapeRecord read_shape(const Database& database, ShapeId id) {
   Statement row(database,
-                "SELECT name, mass_properties, source_file, source_sha256, tool_version, options FROM shapes "
-                "WHERE id = ?");
+                "SELECT name, mass_properties, source_file, source_sha256, tool_version, options, source_frame "
+                "FROM shapes WHERE id = ?");
   if (!row.bind(id).step()) no_such_shape(database, id);
   ShapeRecord shape;
   shape.name = row.text(0);
@@ -90,12 +93,14 @@ ShapeRecord read_shape(const Database& database, ShapeId id) {
   shape.mesh = read_mesh(database, id, shape.name);
   shape.descriptors = read_descriptors(database, id);
   shape.checks = read_checks(database, id);
+  if (const Bytes frame = row.blob(6); !frame.empty())
+    shape.source_frame = decode(database, "the row of " + shape.name, [&] { return decode_source_frame(frame); });
   return shape;
 }
 
 ShapeSummary read_summary(const Database& database, ShapeId id) {
   Statement row(database,
-                "SELECT name, volume, (SELECT face_count FROM meshes WHERE shape_id = shapes.id) FROM shapes "
+                "SELECT name, volume, (SELECT face_count FROM meshes WHERE shape_id = shapes.id), grade FROM shapes "
                 "WHERE id = ?");
   if (!row.bind(id).step()) no_such_shape(database, id);
   ShapeSummary summary;
@@ -103,11 +108,19 @@ ShapeSummary read_summary(const Database& database, ShapeId id) {
   summary.name = row.text(0);
   summary.volume = row.real(1);
   summary.face_count = static_cast<std::size_t>(row.integer(2));
+  summary.grade = static_cast<int>(row.integer(3));
   summary.descriptors = read_descriptors(database, id);
   for (const Check& check : read_checks(database, id))
     if (!check.passed) summary.failed_checks.push_back(check.name);
   summary.levels = read_levels(database, id);
   return summary;
+}
+
+void grade_all(const Database& database) {
+  std::vector<ShapeId> ids;
+  for (Statement row(database, "SELECT id FROM shapes ORDER BY id"); row.step();) ids.push_back(row.integer(0));
+  Statement update(database, "UPDATE shapes SET grade = ? WHERE id = ?");
+  for (const ShapeId id : ids) update.bind(grade_of(read_checks(database, id)), id).run();
 }
 
 std::vector<std::string> descriptor_names(const Database& database) {
@@ -118,7 +131,7 @@ std::vector<std::string> descriptor_names(const Database& database) {
 }
 
 void refresh_wide_descriptors(const Database& database) {
-  std::string view = "CREATE VIEW wide_descriptors AS SELECT shapes.id, shapes.name";
+  std::string view = "CREATE VIEW wide_descriptors AS SELECT shapes.id, shapes.name, shapes.grade";
   for (const std::string& name : descriptor_names(database))
     view += ", max(CASE WHEN descriptors.name = " + quoted(name, '\'') + " THEN value END) AS " + quoted(name, '"');
   view +=

@@ -14,6 +14,9 @@ ShapeId write_shape(const Database& database, const ShapeRecord& shape);
 ShapeRecord read_shape(const Database& database, ShapeId id);
 ShapeSummary read_summary(const Database& database, ShapeId id);
 
+/// Sets the grade of every shape from its checks.
+void grade_all(const Database& database);
+
 /// Names of all descriptors that any shape has, ascending.
 std::vector<std::string> descriptor_names(const Database& database);
 /// Makes the view wide_descriptors anew if the set of descriptor names has changed.

@@ -8,6 +8,7 @@
 #include "postprocess/contact_statistics.h"
 #include "postprocess/report/base64.h"
 #include "postprocess/report/embedded.h"
+#include "postprocess/report/page_parts.h"
 #include "postprocess/report/viewer_scene.h"
 #include "postprocess/svg_plot.h"
 
@@ -30,37 +31,6 @@ std::string with_interval(const IntervalMean& mean, const std::string& unit) {
   if (mean.batches > 1 && mean.half_width > 1e-9 * std::abs(mean.mean))
     text += " ± " + short_number(mean.half_width, 2);
   return text + " " + unit;
-}
-
-/// Rows of cells; cells are text and are escaped, a heading that ends in "]" or starts a number column is
-/// right-aligned.
-class Table {
- public:
-  explicit Table(std::vector<std::string> headings, std::size_t first_number_column = 99)
-      : first_number_column_(first_number_column) {
-    add_row(headings, "th");
-  }
-  void add(const std::vector<std::string>& cells) { add_row(cells, "td"); }
-  std::string html() const { return "<table>\n" + rows_ + "</table>\n"; }
-
- private:
-  void add_row(const std::vector<std::string>& cells, const std::string& tag) {
-    rows_ += "<tr>";
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      rows_ +=
-          "<" + tag + (c >= first_number_column_ ? " class=\"number\">" : ">") + escaped(cells[c]) + "</" + tag + ">";
-    rows_ += "</tr>\n";
-  }
-  std::size_t first_number_column_;
-  std::string rows_;
-};
-
-std::string section(const std::string& title, const std::string& body) {
-  return body.empty() ? "" : "<section>\n<h2>" + escaped(title) + "</h2>\n" + body + "</section>\n";
-}
-
-std::string paragraph(const std::string& text, const char* style = "") {
-  return std::string("<p") + (*style ? std::string(" class=\"") + style + "\"" : "") + ">" + escaped(text) + "</p>\n";
 }
 
 // ---- How far to trust the run
@@ -186,8 +156,7 @@ std::string picture_section(const ReportContents& contents) {
   std::string body = "<div class=\"pictures\">\n";
   for (const ReportContents::Picture& picture : contents.pictures) {
     const std::string caption = "t = " + short_number(picture.time) + " s, coloured by speed";
-    body += "<figure><img alt=\"" + caption + "\" src=\"data:image/png;base64," + base64(picture.png) +
-            "\"/><figcaption>" + caption + "</figcaption></figure>\n";
+    body += figure(picture.png, caption);
   }
   return section("Pictures", body + "</div>\n");
 }
@@ -347,11 +316,8 @@ std::vector<std::size_t> viewer_frames(std::size_t count, std::size_t bodies) {
 }
 
 std::string run_report_html(const RunFolder& run, const RunFigures& figures, const ReportContents& contents) {
-  std::string page =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
-      escaped(run.name()) + " - Talus run</title>\n<style>\n" + kReportStyle +
-      "</style>\n</head>\n<body>\n<main>\n<h1>" + escaped(run.name()) + "</h1>\n" + paragraph(scene_line(run), "lead");
+  std::string page = page_head(run.name() + " - Talus run") + "<h1>" + escaped(run.name()) + "</h1>\n" +
+                     paragraph(scene_line(run), "lead");
   if (!run.summary)
     page +=
         "<div class=\"warning\">The run has no run.json: it has not ended, or was stopped. The figures below hold "
@@ -368,7 +334,7 @@ std::string run_report_html(const RunFolder& run, const RunFigures& figures, con
   page += contact_section(run, contents.frames);
   page += scene_section(run);
   page += again_section(run);
-  return page + "</main>\n</body>\n</html>\n";
+  return page + kPageEnd;
 }
 
 }  // namespace postprocess

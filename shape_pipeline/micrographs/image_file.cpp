@@ -35,10 +35,14 @@ std::vector<std::uint8_t> bytes_of(const fs::path& path) {
   return bytes;
 }
 
-/// The decoders take files that end early, and fill in what is missing.
-void require_end(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
+/// The decoders take files that end early, too, and fill in what is missing.
+void require_whole_image(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const bool is_png = text.starts_with("\x89PNG"), is_jpeg = text.starts_with("\xff\xd8");
+  // The decoders go by content, and there are some for kinds that nobody asked for.
+  const bool is_tiff = text.starts_with(std::string_view("II*\0", 4)) || text.starts_with(std::string_view("MM\0*", 4));
+  if (!is_png && !is_jpeg && !is_tiff && !text.starts_with("BM"))
+    refuse(path, "is damaged or of another kind, " + std::string(kKinds) + "; save it anew");
   if ((is_png && text.find("IEND") == text.npos) || (is_jpeg && text.rfind("\xff\xd9") == text.npos))
     refuse(path, "ends before its last pixels do (truncated " + std::string(is_png ? "PNG" : "JPEG") +
                      "); copy or save it anew");
@@ -46,7 +50,7 @@ void require_end(const fs::path& path, const std::vector<std::uint8_t>& bytes) {
 
 cv::Mat decoded(const fs::path& path) {
   const std::vector<std::uint8_t> bytes = bytes_of(path);
-  require_end(path, bytes);
+  require_whole_image(path, bytes);
   cv::Mat image;
   try {
     image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
@@ -99,6 +103,31 @@ cv::Mat in_bytes(const GreyImage& image) {
   return bytes;
 }
 
+cv::Mat drawn_lines(const GreyImage& image, const std::vector<ColourLine>& lines, double scale) {
+  cv::Mat picture;
+  cv::cvtColor(in_bytes(image), picture, cv::COLOR_GRAY2BGR);
+  const cv::Size size(std::max(1, static_cast<int>(std::lround(image.width * scale))),
+                      std::max(1, static_cast<int>(std::lround(image.height * scale))));
+  cv::resize(picture, picture, size, 0, 0, scale < 1 ? cv::INTER_AREA : cv::INTER_CUBIC);
+  constexpr int kFraction = 4;  // bits below a pixel
+  for (const ColourLine& line : lines) {
+    std::vector<cv::Point> points;
+    for (const auto& [x, y] : line.points)
+      points.emplace_back(static_cast<int>(std::lround((x * scale - 0.5) * (1 << kFraction))),
+                          static_cast<int>(std::lround((y * scale - 0.5) * (1 << kFraction))));
+    cv::polylines(picture, std::vector<std::vector<cv::Point>>{points}, line.is_closed,
+                  cv::Scalar(line.colour[2], line.colour[1], line.colour[0]), 1, cv::LINE_AA, kFraction);
+  }
+  return picture;
+}
+
+ColourImage colour_image(const cv::Mat& picture) {
+  ColourImage image(picture.cols, picture.rows, {});
+  cv::Mat target(picture.rows, picture.cols, CV_8UC3, image.pixels.data());
+  cv::cvtColor(picture, target, cv::COLOR_BGR2RGB);
+  return image;
+}
+
 }  // namespace
 
 GreyImage read_image(const fs::path& path) {
@@ -131,21 +160,22 @@ GreySlice read_slice(const fs::path& path) {
 
 void write_image(const fs::path& path, const GreyImage& image) { write_png(path, in_bytes(image)); }
 
+ColourImage picture_of(const GreyImage& image, const std::vector<ColourLine>& lines, double scale) {
+  return colour_image(drawn_lines(image, lines, scale));
+}
+
 void write_picture(const fs::path& path, const GreyImage& image, const std::vector<ColourLine>& lines) {
-  cv::Mat picture;
-  cv::cvtColor(in_bytes(image), picture, cv::COLOR_GRAY2BGR);
-  const int scale = 2 * std::max(image.width, image.height) <= kLargestPicture ? 2 : 1;
-  cv::resize(picture, picture, {}, scale, scale, cv::INTER_CUBIC);
-  constexpr int kFraction = 4;  // bits below a pixel
-  for (const ColourLine& line : lines) {
-    std::vector<cv::Point> points;
-    for (const auto& [x, y] : line.points)
-      points.emplace_back(static_cast<int>(std::lround((x * scale - 0.5) * (1 << kFraction))),
-                          static_cast<int>(std::lround((y * scale - 0.5) * (1 << kFraction))));
-    cv::polylines(picture, std::vector<std::vector<cv::Point>>{points}, line.is_closed,
-                  cv::Scalar(line.colour[2], line.colour[1], line.colour[0]), 1, cv::LINE_AA, kFraction);
-  }
-  write_png(path, picture);
+  const double scale = 2 * std::max(image.width, image.height) <= kLargestPicture ? 2 : 1;
+  write_png(path, drawn_lines(image, lines, scale));
+}
+
+std::string encoded_png(const ColourImage& image) {
+  const cv::Mat picture(image.height, image.width, CV_8UC3, const_cast<Colour*>(image.pixels.data()));
+  cv::Mat swapped;
+  cv::cvtColor(picture, swapped, cv::COLOR_RGB2BGR);
+  std::vector<std::uint8_t> encoded;
+  cv::imencode(".png", swapped, encoded, {cv::IMWRITE_PNG_COMPRESSION, 6});
+  return {encoded.begin(), encoded.end()};
 }
 
 }  // namespace shape_pipeline

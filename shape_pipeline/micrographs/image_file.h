@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "shape_pipeline/colour_image.h"
 #include "shape_pipeline/micrographs/raster.h"
 
 namespace shape_pipeline {
@@ -34,6 +35,9 @@ struct ColourLine {
   std::array<int, 3> colour{};                // red, green, blue
   bool is_closed = true;
 };
+
+/// The image `scale` times as large with lines over it.
+ColourImage picture_of(const GreyImage& image, const std::vector<ColourLine>& lines, double scale);
 
 /// Writes the image as PNG, twice as large a side up to 3,200 pixels, with lines over it. Throws InputError if it
 /// cannot.

@@ -33,6 +33,17 @@ std::size_t count_of(const std::filesystem::path& path, const PcdHeader& header,
   return static_cast<std::size_t>(count);
 }
 
+/// PCL 1.13 crashes on header lines of blanks alone; on empty ones it does not.
+void refuse_blank_lines(const std::filesystem::path& path, std::string_view header) {
+  for (std::size_t begin = 0; begin < header.size();) {
+    const std::size_t end = std::min(header.find('\n', begin), header.size());
+    const std::string_view line = header.substr(begin, end - begin);
+    if (!line.empty() && words_of(line).empty())
+      refuse_file(path, "header", "expected no line of blanks or a carriage return alone", "remove it or export again");
+    begin = end + 1;
+  }
+}
+
 PcdHeader parse_header(const std::filesystem::path& path, std::string_view bytes) {
   PcdHeader header;
   TextRows rows(bytes);
@@ -49,6 +60,7 @@ PcdHeader parse_header(const std::filesystem::path& path, std::string_view bytes
   header.byte_count = static_cast<std::size_t>(rows.row().data() + rows.row().size() - bytes.data());
   header.byte_count = std::min(bytes.find('\n', header.byte_count), bytes.size() - 1) + 1;
 
+  refuse_blank_lines(path, bytes.substr(0, header.byte_count));
   const auto& fields = header.entries["FIELDS"];
   const auto& sizes = header.entries["SIZE"];
   auto& counts = header.entries["COUNT"];

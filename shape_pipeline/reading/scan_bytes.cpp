@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <system_error>
 
@@ -22,7 +23,11 @@ bool is_separator(char c) { return kSeparators.find(c) != std::string_view::npos
 
 void refuse_file(const std::filesystem::path& path, const std::string& place, const std::string& finding,
                  const std::string& remedy) {
-  throw catalog::InputError(path.string() + ": " + (place.empty() ? "" : place + ": ") + finding + "; " + remedy);
+  std::string text = path.string() + ": " + (place.empty() ? "" : place + ": ") + finding + "; " + remedy;
+  // Words of the file, such as the key of a sidecar, may hold what would break the line.
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char letter) { return letter < ' '; }, '?');
+  throw catalog::InputError(text);
 }
 
 ScanBytes::ScanBytes(const std::filesystem::path& path) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -15,14 +16,17 @@
 #include "catalog/input_error.h"
 #include "shape_pipeline/cloud_file.h"
 #include "shape_pipeline/mesh_file.h"
+#include "shape_pipeline/micrographs/image_file.h"
 #include "shape_pipeline/scan_file.h"
+#include "shape_pipeline/silhouettes/turntable_camera.h"
 #include "shape_pipeline/volumes/stack_file.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMemoryLimit = 64e6;  // of a stack [bytes]
+constexpr double kMemoryLimit = 64e6;                  // of a stack [bytes]
+constexpr std::string_view kTurntable = ".turntable";  // stands for turntable.json, since .json belongs to a RAW
 
 /// A folder in memory, where there is one, that goes when the process ends.
 class WorkFolder {
@@ -48,6 +52,10 @@ void read_any(const fs::path& path) {
   const std::string ending = path.extension();
   if (ending == ".tif" || ending == ".nrrd" || ending == ".nhdr" || ending == ".raw") {
     shape_pipeline::read_stack(path, {std::array<double, 3>{1e-5, 1e-5, 1e-5}, kMemoryLimit});
+  } else if (ending == ".png" || ending == ".jpg" || ending == ".bmp") {
+    shape_pipeline::read_image(path);
+  } else if (ending == kTurntable) {
+    shape_pipeline::view_angles(shape_pipeline::read_turntable_camera(path), 12);
   } else if (shape_pipeline::scan_kind(path) == shape_pipeline::ScanKind::mesh) {
     shape_pipeline::read_mesh(path, 1);
   } else {
@@ -60,8 +68,8 @@ void read_any(const fs::path& path) {
 /// The first line is the file's ending, such as ".ply"; a RAW begins with its sidecar, up to a zero byte.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const WorkFolder folder;
-  static constexpr std::string_view kEndings[] = {".ply", ".pcd", ".xyz",  ".stl",  ".obj", ".off",
-                                                  ".tab", ".tif", ".nrrd", ".nhdr", ".raw"};
+  static constexpr std::string_view kEndings[] = {".ply",  ".pcd",  ".xyz", ".stl", ".obj", ".off", ".tab",    ".tif",
+                                                  ".nrrd", ".nhdr", ".raw", ".png", ".jpg", ".bmp", kTurntable};
   const std::string_view input(reinterpret_cast<const char*>(data), size);
   const std::size_t line = input.find('\n');
   if (line == std::string_view::npos) return 0;
@@ -80,7 +88,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const catalog::InputError& error) {
     // The text is one line and names the file.
     const std::string_view text = error.what();
-    if (text.find('\n') != std::string_view::npos || text.find("scan.") == std::string_view::npos) std::abort();
+    if (text.find('\n') == std::string_view::npos && text.find("scan.") != std::string_view::npos) return 0;
+    std::fprintf(stderr, "refused by more or less than a line that names the file: %s\n", error.what());
+    std::abort();
   }
   return 0;
 }

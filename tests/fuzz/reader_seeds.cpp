@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 namespace fuzz {
 namespace {
@@ -116,6 +118,23 @@ std::string tiff_pages() {
   return bytes;
 }
 
+/// 36 x 34 pixels: a bright disc on a ramp.
+std::string image(const std::string& ending, int type) {
+  cv::Mat pixels(34, 36, type);
+  for (int y = 0; y < pixels.rows; ++y)
+    for (int x = 0; x < pixels.cols; ++x) {
+      const int grey = std::hypot(x - 18, y - 17) < 9 ? 220 : x + y;
+      for (int c = 0; c < pixels.channels(); ++c)
+        if (pixels.depth() == CV_8U)
+          pixels.ptr<std::uint8_t>(y, x)[c] = static_cast<std::uint8_t>(grey);
+        else
+          pixels.ptr<std::uint16_t>(y, x)[c] = static_cast<std::uint16_t>(200 * grey);
+    }
+  std::vector<std::uint8_t> encoded;
+  cv::imencode(ending, pixels, encoded);
+  return {encoded.begin(), encoded.end()};
+}
+
 }  // namespace
 
 std::vector<std::string> reader_seeds() {
@@ -135,7 +154,14 @@ std::vector<std::string> reader_seeds() {
           ".tif\n" + tiff_pages(),
           ".nrrd\nNRRD0004\ntype: uint8\ndimension: 3\nsizes: 4 3 2\nencoding: raw\n\n" + voxels,
           ".raw\n{\"size\": [4, 3, 2], \"type\": \"uint8\", \"voxel_size\": 12, \"unit\": \"um\"}" +
-              std::string(1, '\0') + voxels};
+              std::string(1, '\0') + voxels,
+          ".png\n" + image(".png", CV_8UC1),
+          ".png\n" + image(".png", CV_16UC3),
+          ".jpg\n" + image(".jpg", CV_8UC1),
+          ".bmp\n" + image(".bmp", CV_8UC3),
+          ".turntable\n{\"unit\": \"mm\", \"pixel_size\": 0.02, \"elevation\": 10, \"axis_column\": 18.5, \"turn\": "
+          "\"clockwise\", \"angles\": [0, 30, 60, 90, 120, 150, 180, 210, 240, 270, 300, 330]}",
+          ".turntable\n{\"unit\": \"um\", \"focal_length\": 2400, \"principal_point\": [18, 17], \"distance\": 250}"};
 }
 
 }  // namespace fuzz

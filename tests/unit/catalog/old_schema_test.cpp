@@ -13,7 +13,7 @@ namespace {
 using namespace catalog_files;
 using test_support::TemporaryFolder;
 
-/// A file as an older schema wrote it, with the rows of `model`. Levels had fewer columns then.
+/// A file as an older schema wrote it, with the rows of `model`. Shapes and levels had fewer columns then.
 void make_old_schema(const fs::path& path, const fs::path& model, const std::vector<std::string>& migrations) {
   Sqlite old(path);
   for (const std::string& migration : migrations) {
@@ -24,7 +24,11 @@ void make_old_schema(const fs::path& path, const fs::path& model, const std::vec
   }
   old.execute("PRAGMA application_id = 0x54616c73; PRAGMA user_version = " + std::to_string(migrations.size()));
   old.execute("ATTACH '" + model.string() + "' AS model");
-  for (const std::string table : {"shapes", "meshes", "descriptors", "checks", "rejected"})
+  old.execute(
+      "INSERT INTO main.shapes SELECT id, name, volume, centroid_x, centroid_y, centroid_z, principal_inertia_1, "
+      "principal_inertia_2, principal_inertia_3, mass_properties, source_file, source_sha256, tool_version, options "
+      "FROM model.shapes");
+  for (const std::string table : {"meshes", "descriptors", "checks", "rejected"})
     old.execute("INSERT INTO main." + table + " SELECT * FROM model." + table);
   old.execute(
       "INSERT INTO main.levels SELECT id, shape_id, parts_asked, vertex_cap, part_count, volume, centroid_x, "
@@ -107,6 +111,24 @@ TEST(CatalogFile, LevelsOfSchema2KeepTheirPartsAndGetModeAndFaceCapFromTheirOpti
   EXPECT_EQ(file.value("SELECT level_count FROM shape_overview"), "6");
   file.execute("PRAGMA foreign_keys = ON; DELETE FROM shapes");
   EXPECT_EQ(file.value("SELECT count(*) FROM parts"), "0") << "parts go with their shape";
+}
+
+TEST(CatalogFile, ShapesOfOlderSchemasAreGradedByTheirChecks) {
+  const TemporaryFolder folder;
+  {
+    ShapeCatalog model(folder / "model.talus", Access::read_write);
+    ShapeRecord shape = sample_shape("failed");  // the second volume does not agree
+    shape.source_frame = SourceFrame{};
+    model.store_shape(shape);
+    model.store_shape(sample_shape("sound", 3));
+  }
+  make_schema_1(folder / "ore.talus", folder / "model.talus");
+  for (const Access access : {Access::read_only, Access::read_write}) {
+    const ShapeCatalog catalog(folder / "ore.talus", access);
+    EXPECT_EQ(catalog.summary(*catalog.find("failed")).grade, 3);
+    EXPECT_EQ(catalog.select("grade = 1"), std::vector<ShapeId>{*catalog.find("sound")});
+    EXPECT_FALSE(catalog.shape(*catalog.find("failed")).source_frame) << "older files do not tell";
+  }
 }
 
 TEST(CatalogFile, OldSchemaIsReadWithoutTouchingIt) {

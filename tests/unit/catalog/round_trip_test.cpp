@@ -71,6 +71,7 @@ TEST(RoundTrip, ShapeComesBackBitForBit) {
   ShapeRecord shape = sample_shape("rock 'of' \"Äsch\"; drop table");
   roughen(shape.mesh.vertices, 1);
   shape.mass_properties.centroid = {-0.0, 1e-320, -1.0 / 3};
+  shape.source_frame = {{{{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}}}, {1.0 / 3, -0.0, 1e-320}, 1.0 / 7};
   shape.descriptors["infinite"] = std::numeric_limits<double>::infinity();
   shape.descriptors["not_a_number"] = std::numeric_limits<double>::quiet_NaN();
   ShapeId id = 0;
@@ -88,6 +89,10 @@ TEST(RoundTrip, ShapeComesBackBitForBit) {
   EXPECT_EQ(back.mesh.faces, shape.mesh.faces);
   expect_same(back.mass_properties, shape.mass_properties);
   expect_same(back.provenance, shape.provenance);
+  ASSERT_TRUE(back.source_frame);
+  for (int i = 0; i < 3; ++i) expect_same_bits(back.source_frame->axes[i], shape.source_frame->axes[i]);
+  expect_same_bits(back.source_frame->origin, shape.source_frame->origin);
+  EXPECT_EQ(bits(back.source_frame->scale), bits(shape.source_frame->scale));
   ASSERT_EQ(back.descriptors.size(), shape.descriptors.size());
   for (const auto& [name, value] : shape.descriptors) {
     if (std::isnan(value))
@@ -194,6 +199,19 @@ TEST(RoundTrip, ReplacingAShapeKeepsItsIdAndDropsItsLevels) {
   EXPECT_EQ(catalog.shape(id).mesh.vertices, second.mesh.vertices);
   EXPECT_EQ(catalog.find("other"), other);
   EXPECT_THROW(catalog.level(id, {2, 64}), InputError);
+}
+
+TEST(RoundTrip, ARemovedShapeIsGoneWithItsLevelsAndOthersStay) {
+  const TemporaryFolder folder;
+  ShapeCatalog catalog(folder / "ore.talus", Access::read_write);
+  const ShapeRecord shape = sample_shape("rock");
+  const ShapeId id = catalog.store_shape(shape), other = catalog.store_shape(sample_shape("other"));
+  catalog.store_levels(id, {sample_level(shape, 2)});
+  catalog.remove_shape("rock");
+  catalog.remove_shape("never there");
+  EXPECT_EQ(catalog.select(""), std::vector<ShapeId>{other});
+  EXPECT_FALSE(catalog.find("rock"));
+  EXPECT_TRUE(catalog.summary(catalog.store_shape(shape)).levels.empty());
 }
 
 TEST(RoundTrip, StoringALevelAgainReplacesItAlone) {

@@ -77,6 +77,31 @@ TEST(CloudTool, RocksOnAPlateBecomeShapes) {
   EXPECT_NE(mesh.errors.find("rock.stl: is a mesh"), std::string::npos) << mesh.errors;
 }
 
+TEST(CloudTool, ACloudTakenInAnotherWayLeavesNothingOfTheFirst) {
+  const TemporaryFolder folder;
+  sp::RockRecipe recipe;
+  recipe.subdivisions = 3;
+  sp::ScannerFlaws flaws;
+  flaws.points = 1500;
+  flaws.stray_points = 0;
+  sp::write_cloud(folder / "one.ply", sp::virtual_scan(sp::virtual_rock(recipe), flaws));
+  sp::write_stl(folder / "one_02.stl", sp::virtual_rock(recipe));
+  const auto names = [&] {
+    const catalog::ShapeCatalog catalog(folder / "a.talus", catalog::ShapeCatalog::Access::read_only);
+    std::string text;
+    for (const catalog::ShapeId id : catalog.select("")) text += catalog.summary(id).name + " ";
+    return text;
+  };
+  ASSERT_EQ(digitize(folder, "one_02.stl one.ply --into a.talus --unit m").status, 0);
+  EXPECT_EQ(names(), "one one_02 ");
+  const ToolRun separated = digitize(folder, "one.ply --separate --into a.talus --unit m");
+  EXPECT_EQ(names(), "one_01 one_02 ") << separated.errors;
+  EXPECT_NE(separated.errors.find("one: 1 of an earlier run removed (one)"), std::string::npos) << separated.errors;
+  const ToolRun whole = digitize(folder, "one.ply --into a.talus --unit m");
+  EXPECT_EQ(names(), "one one_02 ") << whole.errors;
+  EXPECT_NE(whole.errors.find("one: 1 of an earlier run removed (one_01)"), std::string::npos) << whole.errors;
+}
+
 TEST(CompareTool, TellsWhatTwoCapturesDifferBy) {
   const TemporaryFolder folder;
   sp::RockRecipe recipe;

@@ -235,6 +235,17 @@ TEST(DigitizeTool, AStackBecomesNamedGrainsOnce) {
   EXPECT_NE(again.output.find("\"status\":\"skipped\""), std::string::npos) << again.output;
   EXPECT_EQ(digitize(folder, "ct.raw --into ore.talus --voxel '12 um' --resolution 8").status, 0);
   EXPECT_TRUE(catalog.find("ct_0002").has_value());
+  EXPECT_TRUE(catalog.rejected().empty());
+
+  // Other options leave nothing of an earlier run behind, other sources stay.
+  shape_pipeline::write_stl(folder / "ct_0003.stl", box_mesh({0, 0, 0}, {2, 3, 4}));
+  EXPECT_EQ(digitize(folder, "ct_0003.stl --into ore.talus --unit mm").status, 0);
+  const ToolRun coarse = digitize(folder, "ct.raw --into ore.talus --voxel '12 um' --sigma 0.6");
+  EXPECT_NE(coarse.errors.find("ct: 1 of an earlier run removed (ct_0002)"), std::string::npos) << coarse.errors;
+  EXPECT_NE(coarse.errors.find("ct: the catalogue keeps ct_0003 of another source"), std::string::npos);
+  EXPECT_EQ(catalog.select("source_file = 'ct.raw'"), std::vector{*catalog.find("ct_0001")});
+  EXPECT_EQ(catalog.rejected().at(0).name, "ct_0002");
+  EXPECT_EQ(catalog.rejected().at(0).source_sha256.size(), 64u);
 }
 
 }  // namespace

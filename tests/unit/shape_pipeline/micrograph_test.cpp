@@ -147,16 +147,17 @@ TEST(Micrograph, BadInputIsRefusedByName) {
   std::fill(hurt.begin() + 40, hurt.begin() + 400, '\x55');
   write_bytes(folder / "hurt.png", hurt);
   write_bytes(folder / "text.png", "this is no image at all");
+  write_bytes(folder / "pgm.png", "P5\n40 40\n255\n" + std::string(800, 'a') + std::string(800, 'z'));
   write_uniform(folder / "black.png", 100, 100, 0);
   write_uniform(folder / "grey.png", 100, 100, 90);
   write_uniform(folder / "small.png", 31, 100, 90);
   DrawnMicrograph bare;
   write_drawn(folder / "noise.png", bare);
   const std::pair<const char*, const char*> expected[] = {
-      {"none.png", "no such file"},   {"empty.png", "0 bytes"},     {"cut.png", "truncated PNG"},
-      {"cut.jpg", "truncated JPEG"},  {"hurt.png", "save it anew"}, {"text.png", "PNG"},
-      {"black.png", "black"},         {"grey.png", "uniform"},      {"small.png", "31 x 100"},
-      {"noise.png", "no whole grain"}};
+      {"none.png", "no such file"},   {"empty.png", "0 bytes"},       {"cut.png", "truncated PNG"},
+      {"cut.jpg", "truncated JPEG"},  {"hurt.png", "save it anew"},   {"text.png", "PNG"},
+      {"pgm.png", "of another kind"}, {"black.png", "black"},         {"grey.png", "uniform"},
+      {"small.png", "31 x 100"},      {"noise.png", "no whole grain"}};
   for (const auto& [file, cause] : expected) {
     const std::string reason = refusal(folder / file);
     EXPECT_EQ(reason.find((folder / file).string()), 0u) << file << ": " << reason;

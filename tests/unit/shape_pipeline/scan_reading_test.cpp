@@ -331,6 +331,8 @@ const BadFile kBadFiles[] = {
     {"cut.tab", [] { return cut(obj(kBox, ""), 0.97) + "\nf 3 7"; }, "expected 'v x y z' or 'f i j k'"},
     {"index.tab", [] { return obj(kBox, "") + "f 1 2 9\n"; }, "expected vertex numbers from 1 to 8"},
     {"cut.pcd", [] { return cut(pcd_header(100, "ascii") + sphere_rows(100, false), 0.6); }, "point"},
+    {"blank_line.pcd", [] { return "\r\n" + pcd_header(100, "ascii") + sphere_rows(100, false); }, "line of blanks"},
+    {"blanks.pcd", [] { return " \n" + pcd_header(100, "ascii") + sphere_rows(100, false); }, "line of blanks"},
     {"cut_binary.pcd", [] { return pcd_header(100, "binary") + std::string(600, 'x'); },
      "expected 100 points, found 50"},
     {"few.xyz", [] { return sphere_rows(20, false); }, "expected at least 50 points, found 20"},

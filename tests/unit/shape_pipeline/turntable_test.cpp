@@ -194,6 +194,7 @@ TEST(Turntable, SidecarsAreRefusedByKey) {
       {R"({"unit": "mm", "pixel_size": 0})", "pixel_size: expected a number above 0"},
       {R"({"unit": "mm", "pixel_size": 1, "distance": 3})", "distance: is for a perspective camera"},
       {R"({"unit": "mm", "pixel_size": 1, "elevaton": 3})", "elevaton: is no key of a turntable"},
+      {R"({"unit": "mm", "pixel_size": 1, "ele\nvaton": 3})", "ele?vaton: is no key of a turntable"},
       {R"({"unit": "mm", "pixel_size": 1, "elevation": 80})", "elevation: expected -60 to 60"},
       {R"({"unit": "mm", "pixel_size": 1, "angles": [1, "b"]})", "angles: expected a number"},
       {R"({"unit": "mm", "pixel_size": 1, "turn": "left"})", "turn: expected one of"},

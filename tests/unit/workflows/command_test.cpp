@@ -135,6 +135,7 @@ TEST_F(CatalogCommand, List) {
   EXPECT_NEAR(std::pow(shapes[1]["equivalent_diameter"].get<double>(), 3) * M_PI / 6, 8 * 2.4e-9, 1e-20);
   EXPECT_EQ(shapes[1]["levels"].size(), 2u);
   EXPECT_EQ(shapes[0]["failed_checks"][0], "volume_second_method");
+  EXPECT_EQ(shapes[0]["grade"], 3);
   EXPECT_EQ(json("list", "--select 'volume > 3e-8'")["shapes"].size(), 1u);
 }
 
