@@ -160,6 +160,14 @@ bool SmallHull::build(const std::vector<Vec3>& given) {
 }
 
 double hull_thickness(const SmallHull& hull, const std::vector<Vec3>& points) {
+  std::array<char, SmallHull::kMaxPoints> is_corner{};
+  std::vector<Vec3> corners;
+  for (const auto& face : hull.faces())
+    for (const int v : face) {
+      if (is_corner[static_cast<std::size_t>(v)]) continue;
+      is_corner[static_cast<std::size_t>(v)] = 1;
+      corners.push_back(points[static_cast<std::size_t>(v)]);
+    }
   double thickness = std::numeric_limits<double>::infinity();
   for (const auto& [a, b, c] : hull.faces()) {
     const Vec3 &pa = points[static_cast<std::size_t>(a)], &pb = points[static_cast<std::size_t>(b)],
@@ -168,8 +176,7 @@ double hull_thickness(const SmallHull& hull, const std::vector<Vec3>& points) {
     const double length = norm(normal);
     if (!(length > 0)) continue;
     double deepest = 0;
-    for (const auto& face : hull.faces())
-      for (const int v : face) deepest = std::max(deepest, dot(normal, pa - points[static_cast<std::size_t>(v)]));
+    for (const Vec3& corner : corners) deepest = std::max(deepest, dot(normal, pa - corner));
     thickness = std::min(thickness, deepest / length);
   }
   return thickness;

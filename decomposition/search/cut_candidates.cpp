@@ -164,9 +164,13 @@ std::vector<Plane> candidate_planes(const CutTrial& trial, Random& random) {
     // Half a sphere of directions: the other half gives the same planes.
     const Vec3 normal = frame(spread_direction(d, 2 * trial.plan.directions));
     for (std::size_t p = 0; p < heights.size(); ++p) heights[p] = dot(normal, trial.points[p]);
-    std::sort(heights.begin(), heights.end());
-    for (const double quantile : kQuantiles)
-      planes.push_back({normal, heights[static_cast<std::size_t>(quantile * static_cast<double>(heights.size()))]});
+    auto begin = heights.begin();  // what lies before it is in its place
+    for (const double quantile : kQuantiles) {
+      const auto place = heights.begin() + static_cast<std::ptrdiff_t>(quantile * static_cast<double>(heights.size()));
+      std::nth_element(begin, place, heights.end());
+      planes.push_back({normal, *place});
+      begin = place;
+    }
   }
   if (trial.solid.is_faceted()) {
     add_facet_planes(trial, planes);
