@@ -41,7 +41,17 @@ RemeshedMesh remesh(const catalog::TriangleMesh& mesh, const RemeshingOptions& o
     return {mesh,
             {{"remeshed_faces", false, static_cast<double>(mesh.faces.size()),
               "remeshing would have opened the surface; the mesh is unchanged"}}};
-  const std::size_t cuts = count_self_intersections(result);
+  std::size_t cuts = count_self_intersections(result);
+  if (cuts > 0) {
+    const catalog::TriangleMesh recut = without_self_intersections(result);
+    const MeshTopology then = mesh_topology(recut);
+    const bool is_sound = then.is_closed() && then.euler_number == before.euler_number &&
+                          std::abs(signed_volume(recut) / signed_volume(result) - 1) <= kLargestVolumeChange;
+    if (is_sound && count_self_intersections(recut) < cuts) {
+      result = recut;
+      cuts = count_self_intersections(result);
+    }
+  }
   const double volume_change = signed_volume(result) / signed_volume(mesh) - 1;
   const double area_change = surface_area(result) / surface_area(mesh) - 1;
   return {std::move(result),

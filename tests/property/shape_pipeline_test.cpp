@@ -29,9 +29,17 @@ class RandomRock : public testing::TestWithParam<int> {
 
 TEST_P(RandomRock, DescriptorsDoNotDependOnPlaceAndTurnAndScaleAsTheirUnit) {
   auto before = shape_descriptors(rock()), after = shape_descriptors(moved(rock(), 3, {0.2, -0.1, 0.4}));
-  const std::map<std::string, int> power{
-      {"volume", 3},    {"volume_hull", 3},      {"surface_area", 2}, {"equivalent_diameter_volume", 1},
-      {"feret_max", 1}, {"mean_edge_length", 1}, {"feret_min", 1},    {"corner_scale", 1}};
+  const std::map<std::string, int> power{{"volume", 3},
+                                         {"volume_hull", 3},
+                                         {"surface_area", 2},
+                                         {"equivalent_diameter_volume", 1},
+                                         {"feret_max", 1},
+                                         {"mean_edge_length", 1},
+                                         {"feret_min", 1},
+                                         {"corner_scale", 1},
+                                         {"roughness_patch_radius", 1},
+                                         {"roughness_sa_iso25178", 1},
+                                         {"roughness_sq_iso25178", 1}};
   const auto power_of = [&](const std::string& name) {
     if (const auto entry = power.find(name); entry != power.end()) return entry->second;
     const bool is_length = name.ends_with("_inertia") || name.starts_with("radius_");
