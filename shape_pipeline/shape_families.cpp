@@ -14,6 +14,7 @@
 #include "catalog/mass_properties.h"
 #include "shape_pipeline/described_shape.h"
 #include "shape_pipeline/digitization.h"
+#include "shape_pipeline/families/hull_blend.h"
 #include "shape_pipeline/families/smoothing.h"
 #include "shape_pipeline/families/spherical_harmonics.h"
 #include "shape_pipeline/mesh_remeshing.h"
@@ -33,6 +34,7 @@ constexpr int kMostStretches = 60;           // the box turns a little with each
 constexpr std::size_t kFacesToShape = 6000;  // rounding needs faces well below the corners' scale
 constexpr int kRoundSteps = 300;             // smooth over about half the radius
 constexpr double kRoundShare = 0.5, kSharpest = 3;
+constexpr double kDeepest = 4;  // times the way to the hull: hollows five times as deep
 constexpr int kHalvings = 24;
 
 std::string text(const char* format, double a, double b = 0, double c = 0, double d = 0) {
@@ -66,6 +68,48 @@ catalog::TriangleMesh blended(const catalog::TriangleMesh& round, const catalog:
   for (std::size_t v = 0; v < result.vertices.size(); ++v)
     result.vertices[v] = add(round.vertices[v], scaled(subtract(given.vertices[v], round.vertices[v]), t));
   return scaled_to_volume(std::move(result), signed_volume(given));
+}
+
+double convexity_of(const catalog::TriangleMesh& mesh) {
+  return signed_volume(mesh) / signed_volume(convex_hull(mesh.vertices));
+}
+
+/// What a family's figure is to become, and the range of the parameter that changes it.
+struct Target {
+  const char* name;
+  double value, tolerance, low, high;
+};
+
+/// The shape make(t) whose figure, measure(shape), is the target's, by halving; towards `high` the figure grows, or
+/// falls, and the surface may come to cut itself, which is no shape: the search goes on below.
+template <class Make, class Measure>
+FamilyMember found_shape(const Target& target, const Make& make, const Measure& measure, bool grows = true) {
+  FamilyMember best;
+  double nearest = std::numeric_limits<double>::infinity(), taken = 0, low = target.low, high = target.high;
+  const auto is_beyond = [&](double t) {
+    // Measured in the frame in which it is stored: the points at which corners are looked at depend on it a little.
+    catalog::TriangleMesh candidate = in_principal_frame(make(t)).mesh;
+    if (count_self_intersections(candidate) > 0) return true;
+    const double figure = measure(candidate);
+    if (std::abs(figure - target.value) < std::abs(nearest - target.value)) {
+      nearest = figure;
+      taken = t;
+      best.mesh = std::move(candidate);
+    }
+    return grows ? figure >= target.value : figure <= target.value;
+  };
+  is_beyond(low);
+  is_beyond(high);
+  for (int step = 0; step < kHalvings && std::abs(nearest - target.value) > target.tolerance; ++step) {
+    const double middle = (low + high) / 2;
+    (is_beyond(middle) ? high : low) = middle;
+  }
+  if (!(std::abs(nearest - target.value) <= target.tolerance))
+    throw catalog::InputError(target.name + text(" %g is not reached; the nearest is %.4f", target.value, nearest) +
+                              " without the surface cutting itself; ask for that, or begin with another shape");
+  best.checks.push_back({std::string(target.name) + "_error", true, nearest - target.value,
+                         text("expected at most %g; parameter of the blend %.4f", target.tolerance, taken)});
+  return best;
 }
 
 }  // namespace
@@ -114,34 +158,25 @@ FamilyMember with_angularity(const catalog::TriangleMesh& mesh, double target, d
   const catalog::TriangleMesh given =
       scaled_to_volume(remesh(mesh, {kFacesToShape, RemeshingStyle::isotropic}).mesh, signed_volume(mesh));
   const catalog::TriangleMesh round = umbrella_steps(given, kRoundShare, kRoundSteps);
-  FamilyMember best;
-  double nearest = std::numeric_limits<double>::infinity(), low = 0, high = kSharpest, taken = 0;
-  const auto consider = [&](double t) {
-    // Measured in the frame in which it is stored: the points at which corners are looked at depend on it a little.
-    catalog::TriangleMesh candidate = in_principal_frame(blended(round, given, t)).mesh;
-    // A surface that cuts itself is no shape: the search goes on below it.
-    if (count_self_intersections(candidate) > 0) return std::numeric_limits<double>::infinity();
-    const double angularity = angularity_of(candidate);
-    if (std::abs(angularity - target) < std::abs(nearest - target)) {
-      nearest = angularity;
-      taken = t;
-      best.mesh = std::move(candidate);
-    }
-    return angularity;
+  return found_shape(
+      {"angularity", target, tolerance, 0, kSharpest}, [&](double t) { return blended(round, given, t); },
+      angularity_of);
+}
+
+FamilyMember with_convexity(const catalog::TriangleMesh& mesh, double target, double tolerance) {
+  if (!(target > 0 && target <= 1))
+    throw catalog::InputError("convexity: expected a number above 0, at most 1, found " + text("%g", target));
+  if (!(tolerance >= 1e-4))
+    throw catalog::InputError("convexity: expected a tolerance of at least 0.0001, found " + text("%g", tolerance));
+  const catalog::TriangleMesh given =
+      scaled_to_volume(remesh(mesh, {kFacesToShape, RemeshingStyle::isotropic}).mesh, signed_volume(mesh));
+  const std::vector<Point> ways = ways_to_hull(given);
+  const auto deepened = [&](double t) {
+    catalog::TriangleMesh result = given;
+    for (std::size_t v = 0; v < ways.size(); ++v) result.vertices[v] = subtract(result.vertices[v], scaled(ways[v], t));
+    return scaled_to_volume(std::move(result), signed_volume(given));
   };
-  consider(low);
-  consider(high);
-  for (int step = 0; step < kHalvings && std::abs(nearest - target) > tolerance; ++step) {
-    const double middle = (low + high) / 2;
-    (consider(middle) < target ? low : high) = middle;
-  }
-  if (!(std::abs(nearest - target) <= tolerance))
-    throw catalog::InputError(
-        text("angularity %g is not reached; the nearest is %.4f", target, nearest) +
-        " without the surface cutting itself; ask for that, or begin with a rounder or sharper shape");
-  best.checks.push_back({"angularity_error", true, nearest - target,
-                         text("expected at most %g; detail kept %.4f times", tolerance, taken)});
-  return best;
+  return found_shape({"convexity", target, tolerance, -1, kDeepest}, deepened, convexity_of, false);
 }
 
 FamilyMember low_passed(const catalog::TriangleMesh& mesh, int degree) {

@@ -27,6 +27,12 @@ FamilyMember stretched(const catalog::TriangleMesh& mesh, double s_over_i, doubl
 /// operator; t < 1 rounds, 1 < t <= 3 sharpens, found by halving. A surface that cuts itself is never taken.
 FamilyMember with_angularity(const catalog::TriangleMesh& mesh, double target, double tolerance);
 
+/// With flatter or deeper hollows until V / V_hull differs from the target by at most the tolerance: x = x0 - t w,
+/// where x0 is the mesh remeshed to about 6000 even faces and w its vertices' ways to the hull (families/hull_blend.h);
+/// t from -1, nearly the hull, to 4, found by halving. A surface that cuts itself is never taken. A convex shape has no
+/// hollows to deepen.
+FamilyMember with_convexity(const catalog::TriangleMesh& mesh, double target, double tolerance);
+
 /// Without detail finer than `degree` (1 to 30). A shape that is star-shaped about its centroid is the sum of its
 /// spherical harmonics up to that degree by least squares over the vertices, weighted by solid angle (Garboczi 2002);
 /// any other is smoothed by the lambda-mu filter (Taubin 1995) with a pass band up to the wave number degree / R, R the

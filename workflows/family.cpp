@@ -24,7 +24,7 @@ struct CommandLine {
   std::filesystem::path catalog_path;
   std::string source, name;
   double s_over_i = 0, i_over_l = 0;
-  std::vector<double> angularities;
+  std::vector<double> angularities, convexities;
   double tolerance = 0.005;
   int degree = 0;
   bool is_json = false;
@@ -54,6 +54,9 @@ void declare_actions(CLI::App& app, CommandLine& line) {
   CLI::App* angularity = action(app, line, "angularity", "rounded or sharpened to angularity_corner_radius");
   angularity->add_option("--target", line.angularities, "one or several, such as 0.05,0.1")->required()->delimiter(',');
   angularity->add_option("--tolerance", line.tolerance, "largest difference from the target")->capture_default_str();
+  CLI::App* convexity = action(app, line, "convexity", "with flatter or deeper hollows, to convexity_volume_ratio");
+  convexity->add_option("--target", line.convexities, "one or several, such as 0.8,0.9")->required()->delimiter(',');
+  convexity->add_option("--tolerance", line.tolerance, "largest difference from the target")->capture_default_str();
   CLI::App* low_pass = action(app, line, "low-pass", "without fine detail: spherical harmonics, or Taubin's filter");
   low_pass->add_option("--degree", line.degree, "finest detail kept, 1 to 30")->required();
   declare_population(app, line.population);
@@ -98,11 +101,14 @@ int run(const CLI::App& app, const CommandLine& line) {
   if (verb == "low-pass")
     add(formatted("_d%d", line.degree), {{"degree", line.degree}},
         [&] { return shape_pipeline::low_passed(mesh, line.degree); });
-  if (line.angularities.size() > 1 && !line.name.empty())
+  if (line.angularities.size() + line.convexities.size() > 1 && !line.name.empty())
     throw catalog::UsageError("--name fits one target only; several are given");
   for (const double target : line.angularities)
     add(formatted("_a%g", target), {{"angularity", target}, {"tolerance", line.tolerance}},
         [&, target] { return shape_pipeline::with_angularity(mesh, target, line.tolerance); });
+  for (const double target : line.convexities)
+    add(formatted("_c%g", target), {{"convexity", target}, {"tolerance", line.tolerance}},
+        [&, target] { return shape_pipeline::with_convexity(mesh, target, line.tolerance); });
   return report_made_shapes("family", make_shapes(catalog, orders), line.is_json);
 }
 

@@ -12,6 +12,7 @@
 #include "shape_pipeline/mesh_topology.h"
 #include "shape_pipeline/meshes/self_intersections.h"
 #include "shape_pipeline/shape_descriptors.h"
+#include "shape_pipeline/virtual_scan.h"
 #include "tests/support/sample_meshes.h"
 
 namespace shape_pipeline {
@@ -52,6 +53,21 @@ TEST(ShapeFamilies, RoundAndSharpenToTheAngularityAskedAtConstantVolume) {
     EXPECT_EQ(count_self_intersections(member.mesh), 0u);
   }
   EXPECT_NE(refusal([&] { with_angularity(dice, 0.9, 0.005); }).find("the nearest is"), std::string::npos);
+}
+
+TEST(ShapeFamilies, FlatterAndDeeperHollowsToTheConvexityAskedAtConstantVolume) {
+  const catalog::TriangleMesh rock = virtual_rock({.seed = 7, .notch_depth = 0.3});
+  const double own = shape_descriptors(rock).at("convexity_volume_ratio");
+  for (const double target : {own - 0.05, (1 + own) / 2}) {
+    const FamilyMember member = with_convexity(rock, target, 0.002);
+    auto d = shape_descriptors(member.mesh);
+    EXPECT_NEAR(d["convexity_volume_ratio"], target, 0.002);
+    EXPECT_NEAR(d["volume"] / signed_volume(rock), 1, 1e-12);
+    EXPECT_EQ(count_self_intersections(member.mesh), 0u);
+    EXPECT_EQ(with_convexity(rock, target, 0.002).mesh.vertices, member.mesh.vertices);
+  }
+  EXPECT_NE(refusal([&] { with_convexity(solid("cube"), 0.8, 0.005); }).find("the nearest is 0.99"), std::string::npos);
+  EXPECT_NE(refusal([&] { with_convexity(rock, 1.2, 0.005); }).find("at most 1"), std::string::npos);
 }
 
 TEST(ShapeFamilies, HarmonicsLeaveWhatIsOfLowDegreeAsItIs) {
