@@ -2,6 +2,7 @@
 #include "workflows/digitize_batch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
@@ -25,6 +26,8 @@ using shape_pipeline::DigitizationOptions;
 using shape_pipeline::ReconstructionMethod;
 using shape_pipeline::RemeshingStyle;
 using shape_pipeline::ScanTruth;
+
+constexpr double kOtherUnit = 20;  // of sizes: inches for millimetres are 25
 
 /// Catalogue names of the scans: the stem, with the ending added where two scans of the batch share it.
 std::vector<std::string> shape_names(const std::vector<fs::path>& scans, const std::string& given_name) {
@@ -186,7 +189,34 @@ void DigitizeBatch::run() {
   };
   for (const fs::path& scan : repeated_) progress_.note(scan.string() + ": is given more than once; taken once");
   run_in_order(work);
+  if (!digitization_.sieve_size) refuse_other_units();
   progress_.finish();
+}
+
+void DigitizeBatch::refuse_other_units() {
+  const auto size = [](const DigitizedScan& outcome) { return std::cbrt(outcome.summary.volume); };
+  std::vector<double> sizes;
+  for (const DigitizedScan& outcome : outcomes_)
+    if (!outcome.is_bad()) sizes.push_back(size(outcome));
+  if (sizes.size() < 3) return;
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  for (std::size_t s = 0; s < outcomes_.size(); ++s) {
+    DigitizedScan& outcome = outcomes_[s];
+    if (outcome.status != "stored") continue;  // what was there before has been looked at
+    const double ratio = size(outcome) / *middle;
+    if (ratio <= kOtherUnit && ratio >= 1 / kOtherUnit) continue;
+    char text[160];
+    std::snprintf(text, sizeof text, ": is %.3g times as large as the median of the shapes of this batch, ", ratio);
+    outcome.reason = outcome.scan.string() + text +
+                     "so that its unit may be another; digitise it by itself, with the --unit that is its own";
+    outcome.status = "rejected";
+    outcome.summary = {};
+    const std::string hash = catalog_->shape(*catalog_->find(outcome.name)).provenance.source_sha256;
+    catalog_->remove_shape(outcome.name);
+    catalog_->store_rejected({outcome.name, outcome.scan.filename().string(), hash, outcome.reason});
+    progress_.note("rejected: " + outcome.reason);
+  }
 }
 
 /// Errors of the scan make an outcome; errors of the catalogue, such as a lock, are not the scan's and end the batch.

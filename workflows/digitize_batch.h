@@ -62,6 +62,9 @@ catalog::ShapeCatalog open_catalog(const std::filesystem::path& path);
 class DigitizeBatch {
  public:
   explicit DigitizeBatch(const DigitizeBatchOptions& options);
+
+  /// Each scan in turn. Of three shapes or more, one that is now stored and more than twenty times as large or small as
+  /// the median is taken out again and rejected: its unit is another, or it does not belong to the others.
   void run();
 
   const DigitizeBatchOptions& options() const { return options_; }
@@ -78,6 +81,7 @@ class DigitizeBatch {
   };
   Prepared prepare(std::size_t scan);
   DigitizedScan stored(std::size_t scan, Prepared&& prepared);
+  void refuse_other_units();
 
   DigitizeBatchOptions options_;
   shape_pipeline::DigitizationOptions digitization_;

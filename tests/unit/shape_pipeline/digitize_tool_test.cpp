@@ -84,6 +84,25 @@ TEST(DigitizeTool, ABatchGoesOnPastABadParticleAndIsIncremental) {
   EXPECT_NE(other_unit.output.find("stored"), std::string::npos) << other_unit.output;
 }
 
+TEST(DigitizeTool, AScanOfAnotherUnitThanTheOthersIsRejectedUnlessAlone) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "scans");
+  for (int i = 1; i <= 3; ++i)
+    shape_pipeline::write_stl(folder / ("scans/box" + std::to_string(i) + ".stl"),
+                              box_mesh({0, 0, 0}, {1.0 * i, 2, 3}));
+  shape_pipeline::write_stl(folder / "scans/inches.stl", box_mesh({0, 0, 0}, {1 / 25.4, 2 / 25.4, 3 / 25.4}));
+  const ToolRun all = digitize(folder, "scans --into a.talus --unit mm");
+  EXPECT_EQ(all.status, 3);
+  EXPECT_NE(all.errors.find("inches.stl: is 0.0312 times as large as the median"), std::string::npos) << all.errors;
+  {
+    catalog::ShapeCatalog catalog(folder / "a.talus", catalog::ShapeCatalog::Access::read_only);
+    EXPECT_EQ(catalog.select("").size(), 3u);
+    EXPECT_EQ(catalog.rejected().size(), 1u);
+  }
+  EXPECT_EQ(digitize(folder, "scans/inches.stl --into a.talus --unit in").status, 0);
+  EXPECT_EQ(digitize(folder, "scans --into b.talus --unit mm --size '20 mm'").status, 0) << "all are made one size";
+}
+
 TEST(DigitizeTool, AMissingScanMakesNoCatalogue) {
   const TemporaryFolder folder;
   const ToolRun run = digitize(folder, "nowhere.stl --into ore.talus --unit mm");
