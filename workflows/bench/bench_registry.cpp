@@ -14,7 +14,8 @@ const std::vector<Bench>& benches() {
 #ifdef TALUS_BENCH_DECOMPOSITION
       {"decomposition", "convex parts of scans (--scans DIR) and a torus: error, rules, time, front of error and cost",
        plan_decomposition_bench},
-      {"digitize", "from clouds (--scans DIR), virtual scans and tomograms to shapes: errors against truths",
+      {"digitize",
+       "from clouds and micrographs (--scans DIR), virtual scans and tomograms to shapes: errors against truths",
        plan_digitize_bench},
 #endif
       {"impacts", "sphere impacts of Chung & Ooi (2011), tests 1-8, beside exact and published values",

@@ -29,7 +29,8 @@ BenchPlan plan_digitize_bench(const BenchOptions& options);       // likewise
 BenchPlan plan_impacts_bench(const BenchOptions& options);
 BenchPlan plan_laws_bench(const BenchOptions& options);
 BenchPlan plan_levels_bench(const BenchOptions& options);
-BenchPlan plan_micrographs_bench(const BenchOptions& options);  // where shape_pipeline is built
+inline constexpr char kHandOutlines[] = "ampis_powder_particle_polygons.json";  // that the bench micrographs scores by
+BenchPlan plan_micrographs_bench(const BenchOptions& options);                  // where shape_pipeline is built
 BenchPlan plan_overlap_bench(const BenchOptions& options);
 BenchPlan plan_parts_bench(const BenchOptions& options);
 BenchPlan plan_pile_bench(const BenchOptions& options);

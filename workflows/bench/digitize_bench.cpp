@@ -2,6 +2,7 @@
 // Digitising: what each way from a scan to a shape loses, against truths.
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "catalog/input_error.h"
 #include "workflows/bench/bench_registry.h"
@@ -52,6 +53,9 @@ BenchPlan plan_digitize_bench(const BenchOptions& options) {
     if (std::filesystem::exists(options.scans / pair.cloud) && std::filesystem::exists(options.scans / pair.mesh))
       plan.cases.push_back(
           {"cloud-" + pair.name, [scans = options.scans, pair] { return measure_cloud(scans, pair); }});
+  if (std::filesystem::exists(options.scans / kHandOutlines))
+    for (BenchCase& micrograph : plan_micrographs_bench(options).cases)
+      plan.cases.push_back({"micrograph-" + micrograph.name, std::move(micrograph.measure)});
   plan.plots = {{"stacks", "Volume error of grains of a tomogram", "voxels a diameter", "mean volume error [%]"}};
   return plan;
 }

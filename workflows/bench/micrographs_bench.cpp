@@ -15,7 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char kHandOutlines[] = "ampis_powder_particle_polygons.json";
 constexpr double kPixel = 1036e-6 / 1536;  // [m]: the field of view that comes with the hand outlines / pixels across
 constexpr int kPopulation = 200;           // grains of the matched population
 
