@@ -11,9 +11,11 @@ namespace {
 constexpr int kSound = 1, kReserved = 2, kDoubtful = 3;
 
 /// These inform where they do not pass.
-constexpr std::string_view kInforming[] = {"given_normals",           "face_normals",          "repaired_solid",
-                                           "poisson_solid",           "filled_area_share",     "remeshed_faces",
-                                           "remeshing_volume_change", "remeshing_area_change", "turntable_views"};
+constexpr std::string_view kInforming[] = {
+    "given_normals",           "face_normals",          "repaired_solid",
+    "poisson_solid",           "filled_area_share",     "remeshed_faces",
+    "remeshing_volume_change", "remeshing_area_change", "remeshing_self_intersections",
+    "turntable_views"};
 
 /// The statistics of a population say nothing against a single solid of it.
 constexpr std::string_view kPopulation = "population_";
