@@ -10,6 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "catalog/input_error.h"
+
 namespace workflows {
 
 void write_whole(const std::filesystem::path& file, const std::string& text) {
@@ -47,6 +49,24 @@ std::optional<std::string> read_whole(const std::filesystem::path& file) {
   if (!stream || std::filesystem::is_directory(file)) return std::nullopt;
   text << stream.rdbuf();  // an empty file sets failbit: nothing to copy, not an error
   return stream.bad() ? std::nullopt : std::optional(text.str());
+}
+
+void require_own_place(const std::filesystem::path& file, const std::string& option, const std::string& beginning) {
+  namespace fs = std::filesystem;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder))
+    throw catalog::InputError(file.string() + ": the folder " + folder.string() +
+                              " is not there, expected a place for the file; make it or name another by " + option);
+  if (fs::is_directory(file))
+    throw catalog::InputError(file.string() + ": is a folder, expected a file; name one by " + option);
+  if (!fs::exists(file) || !fs::is_regular_file(file) || fs::file_size(file) == 0) return;
+  std::ifstream stream(file, std::ios::binary);
+  std::string found(beginning.size(), '\0');
+  if (!stream.read(found.data(), static_cast<std::streamsize>(found.size())) || found != beginning)
+    throw catalog::InputError(file.string() +
+                              ": is there already and is no earlier one of its kind, expected a new name; "
+                              "move it away or name another file by " +
+                              option);
 }
 
 }  // namespace workflows

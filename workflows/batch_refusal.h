@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <new>
 #include <stdexcept>
 #include <string>
 
@@ -16,6 +17,8 @@ inline std::string refusal_of(const std::string& subject, const std::function<vo
     return "";
   } catch (const catalog::InputError& error) {
     return error.what();
+  } catch (const std::bad_alloc&) {
+    return subject + ": needs more memory than there is; crop it, halve its resolution or take a larger machine";
   } catch (const std::logic_error& error) {
     // CGAL reports a geometry it cannot handle this way: this item is lost, the batch is not.
     return subject + ": the geometry library gave up (" + error.what() + "); clean the scan";

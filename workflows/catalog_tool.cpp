@@ -197,6 +197,7 @@ std::string names_text(const std::vector<ShapeSummary>& shapes) {
 }
 
 std::string compared(const ShapeCatalog& catalog, const CatalogOptions& options) {
+  if (!options.plot.empty()) require_own_place(options.plot, "--plot", "<svg");
   const FormTable reference = read_form_table(options.reference, options.reference_select);
   const FormTable made = form_table(catalog, options.expression, options.catalog);
   const auto comparison = compare_populations(reference.rows, made.rows, Samples::independent);

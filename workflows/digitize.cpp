@@ -256,7 +256,11 @@ int run_batch(const CommandLine& line, Batch batch) {
 
 int digitize_batch(const CommandLine& line) {
 #ifdef TALUS_WITH_REPORT
-  if (!line.report.empty()) require_place_for_report(line.report, line.batch.catalog_path);
+  if (!line.report.empty()) {
+    require_own_place(line.report, "--report", "<!DOCTYPE html>");
+    if (fs::weakly_canonical(line.report) == fs::weakly_canonical(line.batch.catalog_path))
+      throw catalog::InputError(line.report.string() + ": is the catalogue; name another file by --report");
+  }
 #endif
   if (line.batch.inputs.empty())
     throw catalog::UsageError("no scan named; give files or folders, or --make-virtual-scans DIR");

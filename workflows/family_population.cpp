@@ -31,14 +31,17 @@ std::string options_text(const PopulationLine& line, const FormTable& reference,
   return options.dump();
 }
 
+std::string shape_name(const PopulationLine& line, std::size_t number) {
+  return formatted("%s_%04zu", (line.name.empty() ? line.reference.stem().string() : line.name).c_str(), number);
+}
+
 /// Shapes are made all together, once one is found missing: each carries the checks of all.
 std::vector<ShapeOrder> orders_of(const PopulationLine& line, const FormTable& reference,
                                   const std::vector<std::size_t>& rows, std::optional<MatchedShapes>& made) {
-  const std::string name = line.name.empty() ? line.reference.stem().string() : line.name;
   std::vector<ShapeOrder> orders;
   for (std::size_t k = 0; k < rows.size(); ++k)
     orders.push_back(
-        {formatted("%s_%04zu", name.c_str(), k + 1),
+        {shape_name(line, k + 1),
          {reference.source, reference.sha256, tool_version(), options_text(line, reference, k + 1, rows[k])},
          [&, k] {
            if (!made) made = matched_shapes(reference, rows, line.options);
@@ -115,7 +118,25 @@ void declare_population(CLI::App& app, PopulationLine& line) {
   command->add_flag("--json", line.is_json, "one JSON object on stdout");
 }
 
+namespace {
+
+/// Shapes of a larger population that an earlier run made of the same reference.
+void remove_rest(catalog::ShapeCatalog& catalog, const PopulationLine& line, const FormTable& reference) {
+  int removed = 0;
+  for (std::size_t number = static_cast<std::size_t>(line.count) + 1;; ++number) {
+    const std::string name = shape_name(line, number);
+    const auto id = catalog.find(name);
+    if (!id || catalog.shape(*id).provenance.source_file != reference.source) break;
+    catalog.remove_shape(name);
+    ++removed;
+  }
+  if (removed > 0) std::fprintf(stderr, "family: %d shapes of an earlier, larger population removed\n", removed);
+}
+
+}  // namespace
+
 int run_population(const PopulationLine& line) {
+  if (!line.plot.empty()) require_own_place(line.plot, "--plot", "<svg");
   const FormTable reference = read_form_table(line.reference, line.select);
   if (fs::exists(line.catalog_path) && fs::equivalent(line.catalog_path, line.reference))
     throw catalog::InputError(line.catalog_path.string() +
@@ -124,7 +145,10 @@ int run_population(const PopulationLine& line) {
   const std::vector<std::size_t> rows =
       representative_rows(reference.rows, static_cast<std::size_t>(line.count), line.options.seed);
   std::optional<MatchedShapes> made;
-  return report(line, reference, catalog, make_shapes(catalog, orders_of(line, reference, rows, made)));
+  const std::vector<ShapeOrder> orders = orders_of(line, reference, rows, made);
+  const std::vector<MadeShape> shapes = make_shapes(catalog, orders);
+  remove_rest(catalog, line, reference);
+  return report(line, reference, catalog, shapes);
 }
 
 }  // namespace workflows

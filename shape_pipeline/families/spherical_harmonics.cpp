@@ -59,20 +59,24 @@ constexpr double kLongestEdge = 0.1;  // of a piece of a face over its distance:
 
 using Corners = std::array<Point, 3>;
 
-/// Adds the integral of r Y over the solid angle of a flat triangle, in three points (degree 2), of its quarters where
-/// it is large.
+/// Adds the integral of r Y over the solid angle of a flat triangle, in three points (degree 2), of its halves across
+/// the longest edge where that is long.
 void add_integral(const Corners& corners, int degree, Eigen::VectorXd& sum) {
-  double longest = 0, nearest = norm(corners[0]);
+  std::size_t longest = 0;  // edge from this corner to the next
+  double length = 0, nearest = norm(corners[0]);
   for (std::size_t c = 0; c < 3; ++c) {
-    longest = std::max(longest, distance(corners[c], corners[(c + 1) % 3]));
+    const double edge = distance(corners[c], corners[(c + 1) % 3]);
+    if (edge > length) {
+      length = edge;
+      longest = c;
+    }
     nearest = std::min(nearest, norm(corners[c]));
   }
-  if (longest > kLongestEdge * nearest) {
-    const auto middle = [&](std::size_t a, std::size_t b) { return scaled(add(corners[a], corners[b]), 0.5); };
-    const Point ab = middle(0, 1), bc = middle(1, 2), ca = middle(2, 0);
-    for (const Corners& quarter :
-         {Corners{corners[0], ab, ca}, {ab, corners[1], bc}, {ca, bc, corners[2]}, {ab, bc, ca}})
-      add_integral(quarter, degree, sum);
+  if (length > kLongestEdge * nearest) {
+    const Point &a = corners[longest], &b = corners[(longest + 1) % 3], &c = corners[(longest + 2) % 3];
+    const Point middle = scaled(add(a, b), 0.5);
+    add_integral({a, middle, c}, degree, sum);
+    add_integral({middle, b, c}, degree, sum);
     return;
   }
   const Point area = scaled(cross(subtract(corners[1], corners[0]), subtract(corners[2], corners[0])), 0.5);

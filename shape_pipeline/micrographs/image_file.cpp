@@ -53,6 +53,10 @@ cv::Mat decoded(const fs::path& path) {
   require_whole_image(path, bytes);
   cv::Mat image;
   try {
+    if (const bool is_tiff = bytes.size() > 2 && bytes[0] == bytes[1] && (bytes[0] == 'I' || bytes[0] == 'M');
+        is_tiff && cv::imcount(path.string()) > 1)
+      refuse(path,
+             "has several pages, " + std::string(kKinds) + "; save the page that is meant, or give a stack --voxel");
     image = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
   } catch (const cv::Exception& error) {
     refuse(path, "cannot be decoded (" + error.err + "), " + kKinds + "; save it anew");

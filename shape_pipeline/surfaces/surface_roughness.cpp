@@ -30,24 +30,28 @@ struct Piece {
   Point centre, area;  // area: normal times area, outward
 };
 
+/// Halved across its longest edge until that is short enough: slender faces stay few.
 void add_pieces(const std::array<Point, 3>& corners, double longest_edge, std::vector<Piece>& pieces) {
   const auto& [a, b, c] = corners;
-  if (std::max({distance(a, b), distance(b, c), distance(c, a)}) <= longest_edge) {
+  const double ab = distance(a, b), bc = distance(b, c), ca = distance(c, a), longest = std::max({ab, bc, ca});
+  if (longest <= longest_edge) {
     pieces.push_back({corners, scaled(add(add(a, b), c), 1.0 / 3), scaled(cross(subtract(b, a), subtract(c, a)), 0.5)});
     return;
   }
-  const Point ab = scaled(add(a, b), 0.5), bc = scaled(add(b, c), 0.5), ca = scaled(add(c, a), 0.5);
-  add_pieces({a, ab, ca}, longest_edge, pieces);
-  add_pieces({ab, b, bc}, longest_edge, pieces);
-  add_pieces({ca, bc, c}, longest_edge, pieces);
-  add_pieces({ab, bc, ca}, longest_edge, pieces);
+  // Turned so that the longest edge runs from the first corner to the second.
+  const std::array<Point, 3> turned = longest == ab   ? corners
+                                      : longest == bc ? std::array<Point, 3>{b, c, a}
+                                                      : std::array<Point, 3>{c, a, b};
+  const Point middle = scaled(add(turned[0], turned[1]), 0.5);
+  add_pieces({turned[0], middle, turned[2]}, longest_edge, pieces);
+  add_pieces({middle, turned[1], turned[2]}, longest_edge, pieces);
 }
 
 /// A piece in the frame of its patch: lengths over the patch's radius, z outwards.
 struct LocalPiece {
   std::array<Point, 3> corners;
   Point centre;
-  double area, slope_x, slope_y;
+  double area, slope_x, slope_y;  // area: seen along z, over which ISO 25178 integrates
 };
 
 /// The pieces about a place that are turned its way. The centres of all stand by themselves too: most pieces are far
@@ -70,7 +74,7 @@ std::vector<LocalPiece> patch_about(const std::vector<Piece>& pieces, const std:
     if (rise <= 0) continue;
     patch.push_back({{local(piece.corners[0]), local(piece.corners[1]), local(piece.corners[2])},
                      local(piece.centre),
-                     norm(piece.area),
+                     rise,
                      -dot(piece.area, across) / rise,
                      -dot(piece.area, along) / rise});
   }

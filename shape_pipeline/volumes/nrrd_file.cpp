@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "shape_pipeline/reading/scan_bytes.h"
 #include "shape_pipeline/volumes/stack_file.h"
@@ -75,6 +76,18 @@ SampleType sample_type(const std::filesystem::path& path, const Fields& fields) 
   return type;
 }
 
+/// Of the steps along the three axes, nine numbers.
+bool are_square_and_right_handed(const std::vector<double>& n) {
+  constexpr double kSquare = 1e-3;  // cosine of the angle: headers are written with few digits
+  const auto dot = [&](std::size_t a, std::size_t b) {
+    return n[3 * a] * n[3 * b] + n[3 * a + 1] * n[3 * b + 1] + n[3 * a + 2] * n[3 * b + 2];
+  };
+  for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {2, 0}})
+    if (std::abs(dot(a, b)) > kSquare * std::sqrt(dot(a, a) * dot(b, b))) return false;
+  return n[0] * (n[4] * n[8] - n[5] * n[7]) - n[1] * (n[3] * n[8] - n[5] * n[6]) + n[2] * (n[3] * n[7] - n[4] * n[6]) >
+         0;
+}
+
 /// Lengths of the axes' steps; zeros where the header states none, or no unit for them.
 std::array<double, 3> spacing_of(const std::filesystem::path& path, const Fields& fields) {
   const bool has_directions = fields.contains("space directions");
@@ -94,10 +107,17 @@ std::array<double, 3> spacing_of(const std::filesystem::path& path, const Fields
     for (std::size_t i = 0; i < 3; ++i)
       spacing[i] =
           metres * (has_directions ? std::hypot(numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]) : numbers[i]);
+  if (has_directions && numbers.size() == expected && !are_square_and_right_handed(numbers))
+    refuse_file(path, "space directions", "expected three axes square to one another that make a right-handed frame",
+                "resample the volume on such axes");
   for (const double side : spacing)
     if (!(side > 0) || !std::isfinite(side))
       refuse_file(path, "spacings", "expected the voxel's sides, three numbers above 0", "correct the header");
   return spacing;
+}
+
+[[noreturn]] void refuse_surplus(const std::filesystem::path& path) {
+  refuse_file(path, "sizes", "the file holds more values than its header says", "correct the header");
 }
 
 void read_gzip(const std::filesystem::path& path, std::size_t offset, SampleSink& sink) {
@@ -125,21 +145,31 @@ void read_gzip(const std::filesystem::path& path, std::size_t offset, SampleSink
     }
     sink.store(sink.grid().index(0, 0, z), slice);
   }
+  char more = 0;
+  stream.next_out = reinterpret_cast<Bytef*>(&more);
+  stream.avail_out = 1;
+  if (stream.avail_in == 0) {
+    stream.next_in = reinterpret_cast<Bytef*>(packed.data());
+    stream.avail_in = static_cast<uInt>(std::fread(packed.data(), 1, packed.size(), file));
+  }
+  inflate(&stream, Z_NO_FLUSH);
+  if (stream.avail_out == 0) refuse_surplus(path);
 }
 
 /// The file that the header names, beside it; empty if the values follow the header.
 std::filesystem::path named_file(const std::filesystem::path& path, const Fields& fields) {
+  for (const char* skip : {"line skip", "lineskip", "byte skip", "byteskip"})
+    if (fields.contains(skip) && fields.at(skip) != "0")
+      refuse_file(path, skip, "expected 0, found '" + fields.at(skip) + "'", kRemedy);
   const auto entry = fields.contains("data file") ? fields.find("data file") : fields.find("datafile");
   if (entry == fields.end()) return {};
   const std::filesystem::path name = entry->second;
   if (entry->second == "LIST" || entry->second.find('%') != std::string::npos)
     refuse_file(path, "data file", "the values stand in several files", kRemedy);
-  for (const char* skip : {"line skip", "lineskip", "byte skip", "byteskip"})
-    if (fields.contains(skip) && fields.at(skip) != "0")
-      refuse_file(path, skip, "expected 0, found '" + fields.at(skip) + "'", kRemedy);
   std::filesystem::path values = name.is_absolute() ? name : path.parent_path() / name;
   if (!std::filesystem::is_regular_file(values))
     refuse_file(path, "data file", "there is no file " + values.string(), "put it beside the header");
+  if (std::filesystem::equivalent(values, path)) refuse_file(path, "data file", "names the header itself", kRemedy);
   return values;
 }
 
@@ -156,7 +186,8 @@ GreyVolume read_nrrd(const std::filesystem::path& path, double memory_limit) {
   const std::filesystem::path detached = named_file(path, fields);
   std::vector<double> sizes;
   if (field(path, fields, "dimension") != "3" || !append_numbers(field(path, fields, "sizes"), sizes) ||
-      sizes.size() != 3 || std::any_of(sizes.begin(), sizes.end(), [](double n) { return !(n >= 1 && n < 1e5); }))
+      sizes.size() != 3 ||
+      std::any_of(sizes.begin(), sizes.end(), [](double n) { return !(n >= 1 && n < 1e5 && n == std::floor(n)); }))
     refuse_file(path, "sizes", "expected a volume of three axes", kRemedy);
   const SampleType type = sample_type(path, fields);
   const std::string encoding = field(path, fields, "encoding");
@@ -167,6 +198,9 @@ GreyVolume read_nrrd(const std::filesystem::path& path, double memory_limit) {
   sink.set_spacing(spacing_of(path, fields));
   const std::filesystem::path& values = detached.empty() ? path : detached;
   const std::size_t offset = detached.empty() ? header.bytes : 0;
+  if (encoding == "raw" &&
+      std::filesystem::file_size(values) - offset > sink.grid().count() * static_cast<std::size_t>(type.bytes))
+    refuse_surplus(values);
   if (encoding == "raw")
     sink.store_file(values, offset);
   else

@@ -91,8 +91,13 @@ void read_tiles(const fs::path& path, TIFF* tiff, int slice, SampleSink& sink) {
   const auto columns = static_cast<std::uint32_t>(sink.grid().size[0]);
   const auto rows = static_cast<std::uint32_t>(sink.grid().size[1]);
   const auto bytes = static_cast<std::size_t>(sink.type().bytes);
+  constexpr double kLargestTile = 1 << 28;  // [bytes]; tiles are some hundred pixels wide
+  const double tile_bytes = static_cast<double>(width) * height * static_cast<double>(bytes);
+  if (tile_bytes > kLargestTile)
+    refuse_file(path, "", "is stored in tiles of " + std::to_string(width) + " x " + std::to_string(height) + " pixels",
+                "save it in strips (tiffcp -s)");
   std::string tile(static_cast<std::size_t>(TIFFTileSize(tiff)), '\0');
-  if (width == 0 || height == 0 || tile.size() < width * height * bytes) refuse_row(path, slice, 0);
+  if (width == 0 || height == 0 || static_cast<double>(tile.size()) < tile_bytes) refuse_row(path, slice, 0);
   for (std::uint32_t top = 0; top < rows; top += height)
     for (std::uint32_t left = 0; left < columns; left += width) {
       if (TIFFReadTile(tiff, tile.data(), left, top, 0, 0) < 0) refuse_row(path, slice, top);

@@ -21,7 +21,4 @@ postprocess::DigitizingReport report_of(const StackBatch& batch);
 postprocess::DigitizingReport report_of(const MicrographBatch& batch);
 postprocess::DigitizingReport report_of(const TurntableBatch& batch);
 
-/// For before a batch: throws InputError where the page could not be written.
-void require_place_for_report(const std::filesystem::path& page, const std::filesystem::path& catalog);
-
 }  // namespace workflows

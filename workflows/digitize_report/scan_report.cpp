@@ -118,15 +118,4 @@ postprocess::DigitizingReport report_of(const CloudBatch& batch) {
   return pages.finished(std::move(sources));
 }
 
-void require_place_for_report(const fs::path& page, const fs::path& catalog) {
-  const fs::path folder = page.has_parent_path() ? page.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder))
-    throw catalog::InputError(page.string() + ": the folder " + folder.string() +
-                              " is not there, expected a place for the page; make it or name another by --report");
-  if (fs::is_directory(page))
-    throw catalog::InputError(page.string() + ": is a folder, expected a file such as page.html; name one by --report");
-  if (fs::weakly_canonical(page) == fs::weakly_canonical(catalog))
-    throw catalog::InputError(page.string() + ": is the catalogue; name another file by --report");
-}
-
 }  // namespace workflows

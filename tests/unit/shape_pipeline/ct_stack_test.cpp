@@ -196,6 +196,23 @@ TEST(CtStackReading, ImagesOfAFolder) {
     for (std::size_t i = 0; i < 40 * 33; ++i) ASSERT_EQ(values[z * 40 * 33 + i], (i * 3 + z + 9) % 256);
 }
 
+TEST(CtStackReading, NrrdHeadersThatWouldBendTheVolumeAreRefused) {
+  const TemporaryFolder folder;
+  const std::string head = "NRRD0004\ntype: uint8\ndimension: 3\nencoding: raw\n", values(27, 'x');
+  const auto expect = [&](const std::string& fields, const std::string& reason, const std::string& body) {
+    write_text(folder / "a.nrrd", head + fields + "\n\n" + body);
+    const std::string found = refusal(folder / "a.nrrd", with_voxel());
+    EXPECT_NE(found.find(reason), std::string::npos) << fields << ": " << found;
+  };
+  const std::string sizes = "sizes: 3 3 3\n", units = "\nspace units: \"mm\" \"mm\" \"mm\"";
+  expect(sizes + "space directions: (1,0,0) (0.5,1,0) (0,0,1)" + units, "square to one another", values);
+  expect(sizes + "space directions: (1,0,0) (0,1,0) (0,0,-1)" + units, "right-handed", values);
+  expect(sizes + "byte skip: 16", "expected 0, found '16'", values);
+  expect(sizes + "data file: a.nrrd", "names the header itself", values);
+  expect("sizes: 3 3 3.9", "three axes", values);
+  expect(sizes + "content: x", "more values than its header says", values + "x");
+}
+
 // Half a step of 65,535 is what rounding may take; one voxel far beyond all others is clipped.
 TEST(CtStackReading, RealNumbersBecomeSteps) {
   const TemporaryFolder folder;

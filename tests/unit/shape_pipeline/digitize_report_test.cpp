@@ -270,7 +270,7 @@ TEST(DigitizeReport, APlaceThatCannotHoldThePageIsRefusedBeforeAnythingIsDone) {
   const TemporaryFolder folder;
   sp::write_stl(folder / "box.stl", box_mesh({0, 0, 0}, {1, 2, 3}));
   fs::create_directory(folder / "pages");
-  for (const char* place : {"nowhere/page.html", "pages", "a.talus"}) {
+  for (const char* place : {"nowhere/page.html", "pages", "a.talus", "box.stl"}) {
     const ToolRun refused = digitize(folder, "box.stl --unit mm --into a.talus --report " + std::string(place));
     EXPECT_EQ(refused.status, 3) << refused.errors;
     EXPECT_NE(refused.errors.find("--report"), std::string::npos) << refused.errors;
