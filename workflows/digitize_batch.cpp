@@ -13,6 +13,7 @@
 
 #include "catalog/input_error.h"
 #include "shape_pipeline/scan_file.h"
+#include "shape_pipeline/stack_sources.h"
 #include "workflows/batch_refusal.h"
 #include "workflows/grain_series.h"
 #include "workflows/in_order.h"
@@ -187,10 +188,20 @@ void DigitizeBatch::run() {
   work.take = [&](int s, Prepared&& prepared) {
     outcomes_.push_back(stored(static_cast<std::size_t>(s), std::move(prepared)));
   };
+  for (const fs::path& input : options_.inputs) note_what_is_passed_over(input);
   for (const fs::path& scan : repeated_) progress_.note(scan.string() + ": is given more than once; taken once");
   run_in_order(work);
   if (!digitization_.sieve_size) refuse_other_units();
   progress_.finish();
+}
+
+void DigitizeBatch::note_what_is_passed_over(const fs::path& input) {
+  if (!fs::is_directory(input)) return;
+  int stacks = 0;
+  for (const auto& entry : fs::directory_iterator(input)) stacks += shape_pipeline::has_stack_ending(entry.path());
+  if (stacks > 0)
+    progress_.note(input.string() + ": " + std::to_string(stacks) +
+                   " CT stacks or images in it are passed over; give them by themselves, without scans of other kinds");
 }
 
 void DigitizeBatch::refuse_other_units() {

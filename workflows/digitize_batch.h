@@ -82,6 +82,7 @@ class DigitizeBatch {
   Prepared prepare(std::size_t scan);
   DigitizedScan stored(std::size_t scan, Prepared&& prepared);
   void refuse_other_units();
+  void note_what_is_passed_over(const std::filesystem::path& input);
 
   DigitizeBatchOptions options_;
   shape_pipeline::DigitizationOptions digitization_;

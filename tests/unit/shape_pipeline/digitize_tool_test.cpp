@@ -91,8 +91,10 @@ TEST(DigitizeTool, AScanOfAnotherUnitThanTheOthersIsRejectedUnlessAlone) {
     shape_pipeline::write_stl(folder / ("scans/box" + std::to_string(i) + ".stl"),
                               box_mesh({0, 0, 0}, {1.0 * i, 2, 3}));
   shape_pipeline::write_stl(folder / "scans/inches.stl", box_mesh({0, 0, 0}, {1 / 25.4, 2 / 25.4, 3 / 25.4}));
+  write_text(folder / "scans/stack.tif", "II");
   const ToolRun all = digitize(folder, "scans --into a.talus --unit mm");
   EXPECT_EQ(all.status, 3);
+  EXPECT_NE(all.errors.find("scans: 1 CT stacks or images in it are passed over"), std::string::npos) << all.errors;
   EXPECT_NE(all.errors.find("inches.stl: is 0.0312 times as large as the median"), std::string::npos) << all.errors;
   {
     catalog::ShapeCatalog catalog(folder / "a.talus", catalog::ShapeCatalog::Access::read_only);
