@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// One scene for profiling and quick comparisons: settles, then times windows. All figures: talus bench speed.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+#include "dem_gpu/simulation.h"
+#include "tests/benchmark/scenes/speed_scenes.h"
+
+namespace {
+
+using benchmark_scenes::SceneOptions;
+
+constexpr char kUsage[] =
+    "usage: time_scene NAME [--law depth|volume] [--bodies N] [--overlap SHARE] [--steps-per-contact N] [--ledger]\n"
+    "                  [--settle SECONDS] [--window SECONDS] [--windows N] [--keep FOLDER]\n"
+    "NAME: s1-box s1-drum s2 s3 s4 hopper-4 hopper-8 mill-4 mill-8\n"
+    "--keep: settle once; later runs go on from the checkpoint in FOLDER\n";
+
+struct Options {
+  std::string scene;
+  SceneOptions of_scene;
+  double settle = -1;  // [s]; negative: the scene's own
+  double window = benchmark_scenes::kWindow;
+  int windows = benchmark_scenes::kWindows;
+  std::filesystem::path keep;
+};
+
+Options parsed(int argc, char** argv) {
+  if (argc < 2) throw std::invalid_argument("no NAME");
+  Options options;
+  options.scene = argv[1];
+  for (int i = 2; i < argc; ++i) {
+    const std::string name = argv[i];
+    if (name == "--ledger") {
+      options.of_scene.has_ledger = true;
+      continue;
+    }
+    if (++i == argc) throw std::invalid_argument(name + " needs a value");
+    const std::string value = argv[i];
+    if (name == "--law")
+      options.of_scene.law =
+          value == "volume" ? benchmark_scenes::Law::overlap_volume : benchmark_scenes::Law::depth_potential;
+    else if (name == "--bodies")
+      options.of_scene.bodies = std::stoi(value);
+    else if (name == "--overlap")
+      options.of_scene.flat_overlap = std::stod(value);
+    else if (name == "--steps-per-contact")
+      options.of_scene.steps_per_contact = std::stod(value);
+    else if (name == "--settle")
+      options.settle = std::stod(value);
+    else if (name == "--window")
+      options.window = std::stod(value);
+    else if (name == "--windows")
+      options.windows = std::stoi(value);
+    else if (name == "--keep")
+      options.keep = value;
+    else
+      throw std::invalid_argument("unknown option " + name);
+  }
+  return options;
+}
+
+double seconds_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void settle(dem_gpu::Simulation& simulation, double time, const std::filesystem::path& keep) {
+  if (!keep.empty() && std::filesystem::exists(keep / "checkpoint.h5")) {
+    simulation.read_checkpoint(keep);
+    return;
+  }
+  const double start = seconds_now();
+  const auto steps = static_cast<std::int64_t>(std::llround(time / simulation.time_step()));
+  simulation.advance(steps);
+  if (steps > 0)
+    std::printf("settled in %lld steps, %.4f ms each\n", static_cast<long long>(steps),
+                1e3 * (seconds_now() - start) / static_cast<double>(steps));
+  if (keep.empty()) return;
+  std::filesystem::create_directories(keep);
+  simulation.write_checkpoint(keep);
+}
+
+void print_state(const dem_gpu::Simulation& simulation) {
+  const dem_gpu::BulkState bulk = simulation.bulk();
+  const dem_gpu::RunQuality quality = simulation.quality();
+  double height = 0;
+  const dem_gpu::Snapshot snapshot = simulation.snapshot();
+  for (std::size_t i = 0; i < snapshot.position.size(); ++i)
+    if (snapshot.active[i]) height += snapshot.position[i].z / bulk.active_bodies;
+  std::printf("time %.4f s, %d bodies, %d contacts (%.3f a body), mean height %.5f m, %lld list rebuilds\n",
+              simulation.time(), bulk.active_bodies, bulk.contacts, 2.0 * bulk.contacts / bulk.active_bodies, height,
+              static_cast<long long>(quality.list_rebuilds));
+  std::printf("largest overlap %.4f of the diameter, fewest steps in a contact %.1f\n", quality.largest_overlap,
+              quality.smallest_steps_per_contact);
+  if (const dem_gpu::EnergyLedger ledger = simulation.ledger(); ledger.throughput > 0)
+    std::printf("energy imbalance %.3g of what was put in\n", ledger.imbalance() / ledger.throughput);
+}
+
+void time_scene(const Options& options) {
+  const benchmark_scenes::SpeedScene& chosen = benchmark_scenes::speed_scene(options.scene);
+  dem_gpu::Simulation simulation(chosen.make(options.of_scene));
+  std::printf("%s: time step %.4g s\n", options.scene.c_str(), simulation.time_step());
+  settle(simulation, options.settle < 0 ? chosen.settling_time : options.settle, options.keep);
+  const auto steps =
+      std::max<std::int64_t>(1, static_cast<std::int64_t>(std::llround(options.window / simulation.time_step())));
+  for (int w = 0; w < options.windows; ++w) {
+    const double start = seconds_now();
+    simulation.advance(steps);
+    std::printf("%lld steps, %.4f ms each\n", static_cast<long long>(steps),
+                1e3 * (seconds_now() - start) / static_cast<double>(steps));
+  }
+  print_state(simulation);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    time_scene(parsed(argc, argv));
+  } catch (const std::invalid_argument& error) {
+    std::fprintf(stderr, "time_scene: %s\n%s", error.what(), kUsage);
+    return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "time_scene: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
