@@ -56,8 +56,7 @@ std::vector<Vec3> lattice_sites(const Lattice& lattice, int count, std::mt19937_
     const std::size_t before = sites.size();
     for (int row = 0; row < deep; ++row)
       for (int column = 0; column < across && static_cast<int>(sites.size()) < count; ++column) {
-        const Vec3 centre =
-            lattice.low + Vec3{(column + 0.5) * cell.x, (row + 0.5) * cell.y, (layer + 0.5) * cell.z};
+        const Vec3 centre = lattice.low + Vec3{(column + 0.5) * cell.x, (row + 0.5) * cell.y, (layer + 0.5) * cell.z};
         const double j = lattice.jitter;
         const Vec3 shift{uniform(random, -j, j), uniform(random, -j, j), uniform(random, -j, j)};
         if (!lattice.is_free || lattice.is_free(centre)) sites.push_back(centre + shift);

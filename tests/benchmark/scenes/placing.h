@@ -23,11 +23,11 @@ double bounding_radius(const dem_gpu::Shape& shape);
 
 /// Where bodies begin: a lattice from `low` upwards in a box, one a cell, so that none overlap.
 struct Lattice {
-  dem_gpu::Vec3 low;   // lower corner of the box [m]
-  double width = 0;    // of the box along x [m]
-  double depth = 0;    // along y [m]
-  double reach = 0;    // largest distance of a point of a body from its centre [m]
-  double jitter = 0;   // largest shift of a site along each axis [m]
+  dem_gpu::Vec3 low;  // lower corner of the box [m]
+  double width = 0;   // of the box along x [m]
+  double depth = 0;   // along y [m]
+  double reach = 0;   // largest distance of a point of a body from its centre [m]
+  double jitter = 0;  // largest shift of a site along each axis [m]
   /// Whether a site may be used; all where empty.
   std::function<bool(const dem_gpu::Vec3&)> is_free{};
 };

@@ -50,22 +50,30 @@ Shape shape_of_diameter(const std::string& name, std::vector<ConvexPart> parts, 
 
 Vec3 unit(const Vec3& v) { return v / norm(v); }
 
+struct Shares {
+  double low, high;
+};
+constexpr Shares kRough{0.92, 1.08};
+
 /// Directions of the corners where parts of a rock meet, and the parts as three of them each.
 struct Sectors {
   std::vector<Vec3> corners;
   std::vector<std::array<int, 3>> parts;
   int seam_corners;  // between two corners, on the seam
+  Shares seam;       // of the ellipsoid's radius that they stand at: low enough for valleys, high enough to show
 };
 
 Sectors sectors_of(int parts) {
   if (parts == 4)
     return {{unit({1, 1, 1}), unit({1, -1, -1}), unit({-1, 1, -1}), unit({-1, -1, 1})},
             {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}},
-            2};
+            2,
+            kRough};
   if (parts == 8)
     return {{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
             {{0, 2, 4}, {1, 2, 4}, {0, 3, 4}, {1, 3, 4}, {0, 2, 5}, {1, 2, 5}, {0, 3, 5}, {1, 3, 5}},
-            1};
+            1,
+            {0.76, 0.98}};
   throw catalog::InputError("benchmark scene: rocks are of 4 or 8 parts");
 }
 
@@ -73,13 +81,13 @@ Sectors sectors_of(int parts) {
 class RockSurface {
  public:
   explicit RockSurface(std::uint64_t seed) : seed_(seed) {}
-  Vec3 corner(const Vec3& direction) const {
+  Vec3 corner(const Vec3& direction, const Shares& shares = kRough) const {
     const Vec3 u = unit(direction);
     // From the direction, whatever the order in which parts ask, rounded so that both neighbours name it alike.
     std::seed_seq key{static_cast<std::uint32_t>(seed_), place(u.x), place(u.y), place(u.z)};
     std::mt19937_64 random(key);
     const double on_ellipsoid = 1 / norm(Vec3{u.x, u.y / 0.85, u.z / 0.7});
-    return on_ellipsoid * uniform(random, 0.92, 1.08) * u;
+    return on_ellipsoid * uniform(random, shares.low, shares.high) * u;
   }
 
  private:
@@ -110,11 +118,12 @@ ConvexPart rock_part(const Sectors& sectors, const std::array<int, 3>& corners, 
     middle += sectors.corners[c];
   }
   points.push_back(surface.corner(middle));
-  std::array<std::array<int, 2>, 3> seams{{{corners[0], corners[1]}, {corners[0], corners[2]}, {corners[1], corners[2]}}};
+  std::array<std::array<int, 2>, 3> seams{
+      {{corners[0], corners[1]}, {corners[0], corners[2]}, {corners[1], corners[2]}}};
   for (const auto& [a, b] : seams) {
     const Vec3 &from = sectors.corners[a], &to = sectors.corners[b];
     for (int s = 1; s <= sectors.seam_corners; ++s)
-      points.push_back(surface.corner((sectors.seam_corners + 1 - s) * from + s * to));
+      points.push_back(surface.corner((sectors.seam_corners + 1 - s) * from + s * to, sectors.seam));
     if (sectors.seam_corners > 1) points.push_back(surface.corner(from + to + 0.7 * unit(middle)));
   }
   ConvexPart part = hull_part(points);

@@ -19,8 +19,8 @@ dem_gpu::Shape three_cube_l(double edge);
 dem_gpu::Shape four_part_cross(double edge);
 
 /// Ball-like rough rock of 4 or 8 parts that meet at a point within, not convex as a whole: its corners stand off an
-/// ellipsoid of axes 1 : 0.85 : 0.7 by up to 8 %, by the seed. `diameter`: of the sphere of its volume [m].
-/// Throws catalog::InputError for another number of parts.
+/// ellipsoid of axes 1 : 0.85 : 0.7 by up to 8 %, by the seed, and those of 8 parts have valleys along their seams.
+/// `diameter`: of the sphere of its volume [m]. Throws catalog::InputError for another number of parts.
 dem_gpu::Shape rough_rock(int parts, double diameter, std::uint64_t seed);
 
 /// Convex, about a ball: the hull of `corners` points spread evenly on a sphere; 2 * corners - 4 faces as a rule.

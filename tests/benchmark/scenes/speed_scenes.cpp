@@ -103,7 +103,8 @@ Scene sphere_drum(const SceneOptions& options) {
   const double size = growth(options.bodies, kSpheres, 3);
   const Drum drum{0.15 * size, 0.3 * size, 30 * 2 * std::numbers::pi / 60};
   add_drum(scene, drum);
-  add_bodies(scene, in_drum(drum, kSphereDiameter / 2, drum.radius - kSphereDiameter / 2), count_of(options, kSpheres), upright);
+  add_bodies(scene, in_drum(drum, kSphereDiameter / 2, drum.radius - kSphereDiameter / 2), count_of(options, kSpheres),
+             upright);
   return scene;
 }
 
@@ -142,7 +143,8 @@ Scene cube_mill(const SceneOptions& options) {
   constexpr double kTilt = 0.15;  // [rad]
   const double reach = 0.005 * (1 + std::numbers::sqrt2 * kTilt);
   const double inner = drum.radius - lifters.height - reach * std::numbers::sqrt2;
-  add_bodies(scene, in_drum(drum, reach, inner), count_of(options, kMillCubes), [](std::mt19937_64& random) { return random_tilt(random, kTilt); });
+  add_bodies(scene, in_drum(drum, reach, inner), count_of(options, kMillCubes),
+             [](std::mt19937_64& random) { return random_tilt(random, kTilt); });
   set_polyhedral_law(scene, options, 1.5, 0.02);
   return scene;
 }

@@ -14,11 +14,11 @@ namespace benchmark_scenes {
 enum class Law { depth_potential, overlap_volume };
 
 struct SceneOptions {
-  int bodies = 0;                         // 0: as many as the scene has by itself; boxes widen, drums and hoppers grow
-  Law law = Law::depth_potential;         // of polyhedra
-  double flat_overlap = 0;                // see stiffness below, share of the diameter [-]; 0: the scene's own
-  double steps_per_contact = 20;          // of polyhedra, in the stiffest contact [-]
-  bool has_ledger = false;                // no peer keeps one
+  int bodies = 0;                  // 0: as many as the scene has by itself; boxes widen, drums and hoppers grow
+  Law law = Law::depth_potential;  // of polyhedra
+  double flat_overlap = 0;         // see stiffness below, share of the diameter [-]; 0: the scene's own
+  double steps_per_contact = 20;   // of polyhedra, in the stiffest contact [-]
+  bool has_ledger = false;         // no peer keeps one
 };
 
 // Stiffness of polyhedra: the heaviest body, landing flat at the speed that bodies fall on each other with while the
