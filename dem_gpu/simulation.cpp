@@ -125,6 +125,7 @@ BulkState Simulation::bulk() const {
     (active[i] ? bulk.active_mass : bulk.removed_mass) += mass[i];
   }
   for (const Real depth : to_host(engine_->state.contacts.depth)) bulk.contacts += depth > 0;
+  bulk.candidate_pairs = static_cast<int>(engine_->state.contacts.key.size());
   return bulk;
 }
 

@@ -57,6 +57,7 @@ struct BulkState {
   int removed_bodies = 0;
   double removed_mass = 0;  // [kg]
   int contacts = 0;         // that carry force
+  int candidate_pairs = 0;  // that the neighbour list holds, looked at in each step
 };
 
 /// One DEM run. Deterministic: the same scene gives the same bytes whatever the thread count.

@@ -40,11 +40,12 @@ SourceTree sound_tree() {
       {"dem_gpu/io/file.cpp", "#include <hdf5.h>\n"},
       {"postprocess/vtk_export.h", "#include \"dem_gpu/snapshot.h\"\n#include \"catalog/shape_catalog.h\"\n"},
       {"postprocess/vtk_export.cpp", "#include <vtkCellArray.h>\n"},
+      {"tests/benchmark/scenes/speed_scenes.h", "#include \"dem_gpu/scene.h\"\n"},
       {"workflows/stage_tool.h", ""},
       {"workflows/run.cpp",
        "#include <unistd.h>\n#include <sys/wait.h>\n#include <CLI/CLI.hpp>\n#include <toml++/toml.h>\n"
        "#include \"workflows/stage_tool.h\"\n#include \"dem_gpu/simulation.h\"\n#include "
-       "\"postprocess/vtk_export.h\"\n"},
+       "\"postprocess/vtk_export.h\"\n#include \"tests/benchmark/scenes/speed_scenes.h\"\n"},
   };
 }
 
@@ -69,6 +70,8 @@ TEST(ArchitectureRules, RefuseEachBadArrow) {
       {"dem_gpu/new.cpp", "#include \"decomposition/convex_decomposition.h\"", "may not include decomposition"},
       {"postprocess/new.cpp", "#include \"shape_pipeline/mesh_file.h\"", "may not include shape_pipeline"},
       {"postprocess/new.cpp", "#include \"workflows/stage_tool.h\"", "may not include workflows"},
+      {"dem_gpu/new.cpp", "#include \"tests/benchmark/scenes/speed_scenes.h\"", "may not include benchmark_scenes"},
+      {"tests/benchmark/scenes/new.cpp", "#include \"workflows/stage_tool.h\"", "may not include workflows"},
       // Arrows to types only.
       {"dem_gpu/new.cpp", "#include \"catalog/shape_catalog.h\"", "only the types of catalog"},
       {"postprocess/new.cpp", "#include \"dem_gpu/simulation.h\"", "only the types of dem_gpu"},

@@ -14,7 +14,11 @@ namespace {
 namespace fs = std::filesystem;
 using Names = std::set<std::string>;
 
-const Names kModules{"catalog", "shape_pipeline", "decomposition", "dem_gpu", "postprocess", "workflows"};
+const Names kModules{"catalog",     "shape_pipeline", "decomposition",   "dem_gpu",
+                     "postprocess", "workflows",      "benchmark_scenes"};
+
+/// The one module that does not stand in the root: scenes that are measured, by benches and by tests.
+constexpr char kSceneFolder[] = "tests/benchmark/scenes/";
 
 // The part of a module's public headers that hold types only: no database, no engine.
 const Names kCatalogTypes{"input_error.h",     "triangle_mesh.h", "convex_part.h", "fit_mode.h",
@@ -27,11 +31,19 @@ struct Arrow {
   const Names* headers;  // null: every public header
 };
 const Arrow kArrows[] = {
-    {"shape_pipeline", "catalog", nullptr},    {"decomposition", "catalog", nullptr},
-    {"dem_gpu", "catalog", &kCatalogTypes},    {"postprocess", "catalog", nullptr},
-    {"postprocess", "dem_gpu", &kEngineTypes}, {"workflows", "catalog", nullptr},
-    {"workflows", "shape_pipeline", nullptr},  {"workflows", "decomposition", nullptr},
-    {"workflows", "dem_gpu", nullptr},         {"workflows", "postprocess", nullptr},
+    {"shape_pipeline", "catalog", nullptr},
+    {"decomposition", "catalog", nullptr},
+    {"dem_gpu", "catalog", &kCatalogTypes},
+    {"postprocess", "catalog", nullptr},
+    {"postprocess", "dem_gpu", &kEngineTypes},
+    {"workflows", "catalog", nullptr},
+    {"workflows", "shape_pipeline", nullptr},
+    {"workflows", "decomposition", nullptr},
+    {"workflows", "dem_gpu", nullptr},
+    {"workflows", "postprocess", nullptr},
+    {"workflows", "benchmark_scenes", nullptr},
+    {"benchmark_scenes", "dem_gpu", nullptr},
+    {"benchmark_scenes", "catalog", &kCatalogTypes},
 };
 
 /// Where a library may be included: files whose path matches. A public header may pull in Eigen alone, which is looked
@@ -64,9 +76,9 @@ const Library kLibraries[] = {
 /// C++ headers have no dot and no folder; of the C and POSIX ones, those that make sense here.
 bool is_standard(const std::string& include) {
   static const std::regex cpp("[a-z0-9_]+"), posix("sys/[a-z]+\\.h|[a-z]+\\.h");
-  static const Names c_and_posix{"unistd.h", "fcntl.h",  "signal.h", "errno.h",   "stdlib.h",  "stdio.h", "string.h",
-                                 "math.h",   "time.h",   "dlfcn.h",  "termios.h", "spawn.h",   "poll.h",  "limits.h",
-                                 "stdint.h", "stddef.h", "fenv.h",   "pthread.h", "strings.h", "libgen.h"};
+  static const Names c_and_posix{"unistd.h", "fcntl.h",  "signal.h", "errno.h",   "stdlib.h",  "stdio.h",  "string.h",
+                                 "math.h",   "time.h",   "dlfcn.h",  "termios.h", "spawn.h",   "poll.h",   "limits.h",
+                                 "stdint.h", "stddef.h", "fenv.h",   "pthread.h", "strings.h", "libgen.h", "malloc.h"};
   if (std::regex_match(include, cpp)) return true;
   return std::regex_match(include, posix) && (include.starts_with("sys/") || c_and_posix.contains(include));
 }
@@ -81,8 +93,13 @@ const Library* library_of(const std::string& include) {
 bool is_header(const std::string& file) {
   return file.ends_with(".h") || file.ends_with(".hpp") || file.ends_with(".cuh");
 }
-std::string module_of(const std::string& file) { return file.substr(0, file.find('/')); }
-std::string inside_module(const std::string& file) { return file.substr(std::min(file.size(), file.find('/') + 1)); }
+std::string module_of(const std::string& file) {
+  return file.starts_with(kSceneFolder) ? "benchmark_scenes" : file.substr(0, file.find('/'));
+}
+std::string inside_module(const std::string& file) {
+  if (file.starts_with(kSceneFolder)) return file.substr(sizeof kSceneFolder - 1);
+  return file.substr(std::min(file.size(), file.find('/') + 1));
+}
 bool is_public(const std::string& file) {
   return is_header(file) && inside_module(file).find('/') == std::string::npos && module_of(file) != "workflows";
 }
@@ -130,12 +147,14 @@ void follow(const SourceTree& tree, const std::string& file, Names& seen, Names&
 SourceTree read_modules(const fs::path& root) {
   const Names extensions{".h", ".hpp", ".cuh", ".cpp", ".cc", ".cu"};
   SourceTree tree;
-  for (const std::string& module : kModules)
-    for (const auto& entry : fs::recursive_directory_iterator(root / module)) {
+  for (const std::string& module : kModules) {
+    const fs::path folder = module == "benchmark_scenes" ? fs::path(kSceneFolder) : fs::path(module);
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       if (!entry.is_regular_file() || !extensions.contains(entry.path().extension().string())) continue;
       std::ifstream file(entry.path(), std::ios::binary);
       tree[fs::relative(entry.path(), root).generic_string()] = {std::istreambuf_iterator<char>(file), {}};
     }
+  }
   return tree;
 }
 

@@ -42,16 +42,14 @@ void PrintTo(const Expected& expected, std::ostream* out) { *out << expected.sce
 constexpr double kSphere = std::numbers::pi / 6 * 1e-6, kCube8 = 8e-3 * 8e-3 * 8e-3;  // [m3]
 
 class SpeedScenes : public testing::TestWithParam<Expected> {};
-INSTANTIATE_TEST_SUITE_P(All, SpeedScenes,
-                         testing::Values(Expected{"s1-box", 10000, 10000 * kSphere * 2500},
-                                         Expected{"s1-drum", 10000, 10000 * kSphere * 2500},
-                                         Expected{"s2", 1000, 1000 * 1e-6 * 2500},
-                                         Expected{"s3", 500, 250 * (3 + 5) * kCube8 * 2500},
-                                         Expected{"s4", 1500, 1500 * 1e-6 * 2500},
-                                         Expected{"hopper-4", 1000, 1000 * kSphere * 2500},
-                                         Expected{"hopper-8", 1000, 1000 * kSphere * 2500},
-                                         Expected{"mill-4", 1000, 1000 * kSphere * 2500},
-                                         Expected{"mill-8", 1000, 1000 * kSphere * 2500}));
+INSTANTIATE_TEST_SUITE_P(
+    All, SpeedScenes,
+    testing::Values(Expected{"s1-box", 10000, 10000 * kSphere * 2500},
+                    Expected{"s1-drum", 10000, 10000 * kSphere * 2500}, Expected{"s2", 1000, 1000 * 1e-6 * 2500},
+                    Expected{"s3", 500, 250 * (3 + 5) * kCube8 * 2500}, Expected{"s4", 1500, 1500 * 1e-6 * 2500},
+                    Expected{"hopper-4", 1000, 1000 * kSphere * 2500},
+                    Expected{"hopper-8", 1000, 1000 * kSphere * 2500}, Expected{"mill-4", 1000, 1000 * kSphere * 2500},
+                    Expected{"mill-8", 1000, 1000 * kSphere * 2500}));
 
 TEST_P(SpeedScenes, HoldTheirBodies) {
   const Scene scene = speed_scene(GetParam().scene).make({});

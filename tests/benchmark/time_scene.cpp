@@ -121,6 +121,7 @@ void time_scene(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
   try {
     time_scene(parsed(argc, argv));
   } catch (const std::invalid_argument& error) {

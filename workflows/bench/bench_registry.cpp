@@ -31,6 +31,8 @@ const std::vector<Bench>& benches() {
       {"parts", "how many parts a rock needs (--catalog FILE): 300 rocks poured, tilted and emptied at every level",
        plan_parts_bench},
       {"pile", "300 mixed grains settling: speed, energy balance, overlap, threads", plan_pile_bench},
+      {"speed", "time of a step on the scenes S1 to S4, contacts, energy, memory, threads, beside LIGGGHTS",
+       plan_speed_bench},
       {"walls", "a drum as a cylinder and as 64 and 512 flat segments: torque and work", plan_walls_bench},
       // A new bench: its file beside these, its function in the header, one line here.
   };

@@ -34,6 +34,7 @@ BenchPlan plan_micrographs_bench(const BenchOptions& options);                  
 BenchPlan plan_overlap_bench(const BenchOptions& options);
 BenchPlan plan_parts_bench(const BenchOptions& options);
 BenchPlan plan_pile_bench(const BenchOptions& options);
+BenchPlan plan_speed_bench(const BenchOptions& options);
 BenchPlan plan_walls_bench(const BenchOptions& options);
 
 }  // namespace workflows

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <optional>
 
-#include "dem_gpu/scene.h"
-
 namespace benchmark_scenes {
 namespace {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "catalog/convex_part.h"
-#include "dem_gpu/core/vec3.h"
+#include "dem_gpu/scene.h"
 
 namespace benchmark_scenes {
 

@@ -22,7 +22,10 @@ constexpr int kSpheres = 10000, kMixed = 1000, kOutlet = 500, kMillCubes = 1500,
 constexpr double kSphereDiameter = 0.01;  // [m]
 constexpr double kRockDiameter = 0.01;    // of the sphere of its volume [m]
 constexpr double kSphereStep = 1e-4;      // [s]
-constexpr double kJitter = 2e-4;          // of the lattices [m]
+constexpr double kMillSpeed = 5.661;      // [rad/s]
+constexpr int kMillLifters = 8;
+constexpr double kMillPassage = 2 * std::numbers::pi / kMillLifters / kMillSpeed;  // from one lifter to the next [s]
+constexpr double kJitter = 2e-4;                                                   // of the lattices [m]
 
 int count_of(const SceneOptions& options, int own) { return options.bodies > 0 ? options.bodies : own; }
 
@@ -135,8 +138,8 @@ Scene cube_mill(const SceneOptions& options) {
   Scene scene = empty_scene("S4", 0.3, options);
   scene.shapes = {cube(0.01)};
   const double size = growth(options.bodies, kMillCubes, 3);
-  const Drum drum{0.15 * size, 0.14 * size, 5.661 / std::sqrt(size)};
-  const Lifters lifters{8, 0.015, 0.015};
+  const Drum drum{0.15 * size, 0.14 * size, kMillSpeed / std::sqrt(size)};
+  const Lifters lifters{kMillLifters, 0.015, 0.015};
   add_drum(scene, drum);
   add_lifters(scene, drum, lifters);
   // Nearly upright, since 1,500 at random attitudes do not find room apart from each other.
@@ -183,15 +186,15 @@ Scene rock_mill(const SceneOptions& options, int parts) {
 }
 
 const std::vector<SpeedScene>& speed_scenes() {
-  static const std::vector<SpeedScene> all{{"s1-box", sphere_box, false, 0.6},
-                                           {"s1-drum", sphere_drum, false, 0.6},
-                                           {"s2", mixed_box, true, 1.2},
-                                           {"s3", outlet_box, true, kOutletOpens},
-                                           {"s4", cube_mill, true, 2.2},
-                                           {"hopper-4", rock_hopper_of<4>, true, kHopperOpens},
-                                           {"hopper-8", rock_hopper_of<8>, true, kHopperOpens},
-                                           {"mill-4", rock_mill_of<4>, true, 1},
-                                           {"mill-8", rock_mill_of<8>, true, 1}};
+  static const std::vector<SpeedScene> all{{"s1-box", sphere_box, false, 0.2, 0.6},
+                                           {"s1-drum", sphere_drum, false, 0.2, 0.6},
+                                           {"s2", mixed_box, true, 0.25, 1.2},
+                                           {"s3", outlet_box, true, 0.3, kOutletOpens},
+                                           {"s4", cube_mill, true, kMillPassage, 16 * kMillPassage},
+                                           {"hopper-4", rock_hopper_of<4>, true, kHopperOpens / 2, kHopperOpens},
+                                           {"hopper-8", rock_hopper_of<8>, true, kHopperOpens / 2, kHopperOpens},
+                                           {"mill-4", rock_mill_of<4>, true, 0.25, 1},
+                                           {"mill-8", rock_mill_of<8>, true, 0.25, 1}};
   return all;
 }
 

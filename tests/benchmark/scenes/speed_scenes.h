@@ -49,7 +49,8 @@ struct SpeedScene {
   std::string name;
   dem_gpu::Scene (*make)(const SceneOptions&);
   bool has_polyhedra;
-  double settling_time;  // before the first window [s]
+  double busy_time;      // of the hardest impacts [s]
+  double settling_time;  // before the first window; in S4 whole lifter passages, so that it looks as it did [s]
 };
 /// Windows follow the settling one after the other.
 inline constexpr double kWindow = 0.1;  // [s]
