@@ -11,3 +11,6 @@
 /// One compiled copy: inlined into kernels of different templates, the same source may contract different products and
 /// sums, and round differently.
 #define TALUS_ONE_COPY __attribute__((noinline))
+
+/// For the small functions of contact geometry: a call would pass their vectors through memory.
+#define TALUS_INLINE inline __attribute__((always_inline))

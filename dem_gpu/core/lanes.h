@@ -2,15 +2,31 @@
 #pragma once
 
 #include <cstdint>
+#include <type_traits>
 
 #include "dem_gpu/core/host_device.h"
 #include "dem_gpu/core/real.h"
 
-// A block of numbers of contact geometry worked on together: one vector register on the CPU (the compiler splits it
-// where registers are shorter), a single number on the GPU, where the threads are the lanes. Measured on pairs of
-// 24-vertex parts, plain loops were not vectorised by GCC 12 and took four times as long.
+#if !defined(__CUDACC__) && defined(__AVX__)
+#include <immintrin.h>
+#endif
+
+// Eight numbers of contact geometry worked on together: the corners of a polygon, or eight vertices of a part. One
+// vector register on the CPU (the compiler splits it where registers are shorter), an array on the GPU. Written with
+// vector types rather than loops, which GCC 12 does not turn into vector code; the few operations that those types do
+// not have are given for the instruction sets that have them.
 
 namespace dem_gpu {
+
+inline constexpr int kLanes = 8;
+
+/// A choice of lanes: bit i for lane i.
+using LaneSet = unsigned;
+
+/// A lane for each lane: in_order(a, order)[i] == a[order[i]].
+struct LaneOrder {
+  std::uint8_t lane[kLanes];
+};
 
 TALUS_HD inline int count_bits(std::uint64_t bits) {
 #if defined(__CUDA_ARCH__)
@@ -20,56 +36,223 @@ TALUS_HD inline int count_bits(std::uint64_t bits) {
 #endif
 }
 
+/// Index of the lowest bit that is set.
+TALUS_HD inline int lowest_bit(std::uint64_t bits) { return count_bits((bits & (~bits + 1)) - 1); }
+
 #if defined(__CUDACC__)
 
-inline constexpr int kLanes = 1;
-using Lanes = LocalReal;
-using LaneBits = std::uint64_t;
+template <class Number>
+struct LaneArray {
+  Number value[kLanes];
 
-TALUS_HD inline Lanes load_lanes(const LocalReal* values) { return *values; }
-TALUS_HD inline Lanes least(Lanes a, Lanes b) { return a < b ? a : b; }
-TALUS_HD inline Lanes greatest(Lanes a, Lanes b) { return a > b ? a : b; }
-TALUS_HD inline LocalReal least_lane(Lanes a) { return a; }
-TALUS_HD inline LocalReal greatest_lane(Lanes a) { return a; }
-TALUS_HD inline LaneBits bits_above(Lanes a, LocalReal limit, int first) {
-  return a > limit ? LaneBits{1} << first : 0;
+  TALUS_HD Number& operator[](int i) { return value[i]; }
+  TALUS_HD Number operator[](int i) const { return value[i]; }
+
+  template <class Operation>
+  TALUS_HD static LaneArray each(const Operation& operation) {
+    LaneArray result;
+#pragma unroll
+    for (int i = 0; i < kLanes; ++i) result.value[i] = operation(i);
+    return result;
+  }
+  TALUS_HD friend LaneArray operator+(const LaneArray& a, const LaneArray& b) {
+    return each([&](int i) { return a[i] + b[i]; });
+  }
+  TALUS_HD friend LaneArray operator-(const LaneArray& a, const LaneArray& b) {
+    return each([&](int i) { return a[i] - b[i]; });
+  }
+  TALUS_HD friend LaneArray operator*(const LaneArray& a, const LaneArray& b) {
+    return each([&](int i) { return a[i] * b[i]; });
+  }
+  TALUS_HD friend LaneArray operator/(const LaneArray& a, const LaneArray& b) {
+    return each([&](int i) { return a[i] / b[i]; });
+  }
+  TALUS_HD friend LaneArray operator+(const LaneArray& a, Number b) {
+    return each([&](int i) { return a[i] + b; });
+  }
+  TALUS_HD friend LaneArray operator-(const LaneArray& a, Number b) {
+    return each([&](int i) { return a[i] - b; });
+  }
+  TALUS_HD friend LaneArray operator-(Number a, const LaneArray& b) {
+    return each([&](int i) { return a - b[i]; });
+  }
+  TALUS_HD friend LaneArray operator*(Number a, const LaneArray& b) {
+    return each([&](int i) { return a * b[i]; });
+  }
+  TALUS_HD LaneArray& operator+=(const LaneArray& b) { return *this = *this + b; }
+};
+
+using Lanes = LaneArray<LocalReal>;
+using RealLanes = LaneArray<Real>;
+
+template <class Number>
+TALUS_HD LaneArray<Number> load_lanes(const Number* values) {
+  return LaneArray<Number>::each([&](int i) { return values[i]; });
 }
-TALUS_HD inline std::uint64_t join(LaneBits bits) { return bits; }
+template <class Number>
+TALUS_HD void store_lanes(const LaneArray<Number>& a, Number* values) {
+  for (int i = 0; i < kLanes; ++i) values[i] = a[i];
+}
+TALUS_HD inline RealLanes widened(const Lanes& a) {
+  return RealLanes::each([&](int i) { return Real(a[i]); });
+}
+TALUS_HD inline Lanes rounded(const RealLanes& a) {
+  return Lanes::each([&](int i) { return LocalReal(a[i]); });
+}
+TALUS_HD inline Lanes least(const Lanes& a, const Lanes& b) {
+  return Lanes::each([&](int i) { return a[i] < b[i] ? a[i] : b[i]; });
+}
+TALUS_HD inline Lanes greatest(const Lanes& a, const Lanes& b) {
+  return Lanes::each([&](int i) { return a[i] > b[i] ? a[i] : b[i]; });
+}
+template <class Number>
+TALUS_HD LaneArray<Number> in_order(const LaneArray<Number>& a, const LaneOrder& order) {
+  return LaneArray<Number>::each([&](int i) { return a[order.lane[i]]; });
+}
+using LaneIndex = LaneOrder;
+TALUS_HD inline LaneIndex lane_index(const LaneOrder& order) { return order; }
+template <class Number>
+TALUS_HD LaneArray<Number> swapped_lanes(const LaneArray<Number>& a, int distance) {
+  return LaneArray<Number>::each([&](int i) { return a[i ^ distance]; });
+}
+/// Lane i becomes lane i + 1, the last one the first.
+TALUS_HD inline Lanes next_lane(const Lanes& a) {
+  return Lanes::each([&](int i) { return a[(i + 1) % kLanes]; });
+}
+/// Bit i where a[i] > b[i].
+TALUS_HD inline LaneSet lanes_above(const Lanes& a, const Lanes& b) {
+  LaneSet set = 0;
+#pragma unroll
+  for (int i = 0; i < kLanes; ++i) set |= static_cast<LaneSet>(a[i] > b[i]) << i;
+  return set;
+}
+TALUS_HD inline LaneSet lanes_above(const RealLanes& a,
+                                    const RealLanes& b) requires(sizeof(LocalReal) != sizeof(Real)) {
+  LaneSet set = 0;
+  for (int i = 0; i < kLanes; ++i) set |= static_cast<LaneSet>(a[i] > b[i]) << i;
+  return set;
+}
+template <class SomeLanes, class Number>
+TALUS_HD SomeLanes every_lane(Number value) {
+  return SomeLanes::each([&](int) { return value; });
+}
+TALUS_HD inline Lanes gathered(const LocalReal* values, const LaneOrder& order) {
+  return Lanes::each([&](int i) { return values[order.lane[i]]; });
+}
 
 #else
 
-inline constexpr int kLanes = 8;
 using Lanes = LocalReal __attribute__((vector_size(kLanes * sizeof(LocalReal))));
-using LaneBits = std::uint64_t __attribute__((vector_size(kLanes * sizeof(std::uint64_t))));
+using RealLanes = Real __attribute__((vector_size(kLanes * sizeof(Real))));
+using WideIndex = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
 
+template <class SomeLanes, class Number>
+SomeLanes every_lane(Number value) {
+  return value - SomeLanes{};
+}
 inline Lanes load_lanes(const LocalReal* values) {
   Lanes lanes;
   __builtin_memcpy(&lanes, values, sizeof(lanes));
   return lanes;
 }
+inline void store_lanes(const Lanes& a, LocalReal* values) { __builtin_memcpy(values, &a, sizeof(a)); }
+
+#if defined(TALUS_MIXED_PRECISION)
+using LaneIndex = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
+inline RealLanes widened(const Lanes& a) { return __builtin_convertvector(a, RealLanes); }
+inline Lanes rounded(const RealLanes& a) { return __builtin_convertvector(a, Lanes); }
+#else
+using LaneIndex = WideIndex;
+inline const RealLanes& widened(const Lanes& a) { return a; }
+inline const Lanes& rounded(const RealLanes& a) { return a; }
+#endif
+
 inline Lanes least(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
 inline Lanes greatest(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
-inline LocalReal least_lane(const Lanes& a) {
-  LocalReal value = a[0];
-  for (int lane = 1; lane < kLanes; ++lane) value = a[lane] < value ? a[lane] : value;
-  return value;
+
+/// An order unpacked, for use on several numbers.
+inline LaneIndex lane_index(const LaneOrder& order) {
+#if defined(__AVX512F__) && !defined(TALUS_MIXED_PRECISION)
+  return LaneIndex(_mm512_maskz_cvtepu8_epi64(0xff, _mm_loadl_epi64(reinterpret_cast<const __m128i*>(order.lane))));
+#elif defined(__AVX2__) && defined(TALUS_MIXED_PRECISION)
+  return LaneIndex(_mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(order.lane))));
+#else
+  LaneIndex index;
+  for (int i = 0; i < kLanes; ++i) index[i] = order.lane[i];
+  return index;
+#endif
 }
-inline LocalReal greatest_lane(const Lanes& a) {
-  LocalReal value = a[0];
-  for (int lane = 1; lane < kLanes; ++lane) value = a[lane] > value ? a[lane] : value;
-  return value;
+inline Lanes in_order(const Lanes& a, const LaneIndex& index) { return __builtin_shuffle(a, index); }
+inline Lanes next_lane(const Lanes& a) { return __builtin_shuffle(a, LaneIndex{1, 2, 3, 4, 5, 6, 7, 0}); }
+
+inline Lanes gathered(const LocalReal* values, const LaneOrder& order) {
+#if defined(__AVX512F__) && !defined(TALUS_MIXED_PRECISION)
+  return Lanes(
+      _mm512_mask_i64gather_pd(_mm512_setzero_pd(), 0xff, __m512i(lane_index(order)), values, sizeof(LocalReal)));
+#else
+  Lanes lanes;
+  for (int i = 0; i < kLanes; ++i) lanes[i] = values[order.lane[i]];
+  return lanes;
+#endif
 }
-/// Bit first + lane for each lane above the limit.
-inline LaneBits bits_above(const Lanes& a, LocalReal limit, int first) {
-  constexpr LaneBits kBit = {1, 2, 4, 8, 16, 32, 64, 128};
-  return __builtin_convertvector(a > limit, LaneBits) & (kBit << first);
+
+inline LaneSet lanes_above(const RealLanes& a, const RealLanes& b) {
+#if defined(__AVX512F__)
+  return _mm512_cmp_pd_mask(__m512d(a), __m512d(b), _CMP_GT_OQ);
+#else
+  LaneSet set = 0;
+  for (int i = 0; i < kLanes; ++i) set |= static_cast<LaneSet>(a[i] > b[i]) << i;
+  return set;
+#endif
 }
-inline std::uint64_t join(const LaneBits& bits) {
-  std::uint64_t all = bits[0];
-  for (int lane = 1; lane < kLanes; ++lane) all |= bits[lane];
-  return all;
+#if defined(TALUS_MIXED_PRECISION)
+inline LaneSet lanes_above(const Lanes& a, const Lanes& b) {
+#if defined(__AVX__)
+  return static_cast<LaneSet>(_mm256_movemask_ps(_mm256_cmp_ps(__m256(a), __m256(b), _CMP_GT_OQ)));
+#else
+  LaneSet set = 0;
+  for (int i = 0; i < kLanes; ++i) set |= static_cast<LaneSet>(a[i] > b[i]) << i;
+  return set;
+#endif
+}
+#endif
+
+template <class SomeLanes>
+SomeLanes swapped_lanes(const SomeLanes& a, int distance) {
+  using Index = std::conditional_t<sizeof(SomeLanes) == sizeof(WideIndex), WideIndex, LaneIndex>;
+  const Index identity{0, 1, 2, 3, 4, 5, 6, 7};
+  return __builtin_shuffle(a, identity ^ static_cast<std::int32_t>(distance));
 }
 
 #endif
+
+/// Which of eight sets of vertices hold all of `some`.
+TALUS_HD inline LaneSet sets_holding_all(const std::uint64_t* sets, std::uint64_t some) {
+#if defined(__AVX512F__) && !defined(__CUDACC__)
+  const __m512i wanted = _mm512_set1_epi64(static_cast<long long>(some));
+  return _mm512_cmpeq_epi64_mask(_mm512_and_si512(_mm512_loadu_si512(sets), wanted), wanted);
+#else
+  LaneSet holding = 0;
+  for (int i = 0; i < kLanes; ++i) holding |= static_cast<LaneSet>((sets[i] & some) == some) << i;
+  return holding;
+#endif
+}
+
+/// The sum of all lanes, and the least and the greatest one, by halves: the same order on every machine.
+template <class SomeLanes>
+TALUS_HD auto sum_of_lanes(const SomeLanes& a) {
+  const SomeLanes fours = a + swapped_lanes(a, 4), twos = fours + swapped_lanes(fours, 2);
+  return twos[0] + twos[1];
+}
+TALUS_HD inline LocalReal least_lane(const Lanes& a) {
+  const Lanes fours = least(a, swapped_lanes(a, 4)), twos = least(fours, swapped_lanes(fours, 2));
+  return twos[0] < twos[1] ? twos[0] : twos[1];
+}
+TALUS_HD inline LocalReal greatest_lane(const Lanes& a) {
+  const Lanes fours = greatest(a, swapped_lanes(a, 4)), twos = greatest(fours, swapped_lanes(fours, 2));
+  return twos[0] > twos[1] ? twos[0] : twos[1];
+}
+/// The first lane in all.
+TALUS_HD inline Lanes first_lane(const Lanes& a) { return every_lane<Lanes>(a[0]); }
 
 }  // namespace dem_gpu

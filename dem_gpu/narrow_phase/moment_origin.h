@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dem_gpu/core/vec3.h"
+#include "dem_gpu/core/lane_vec3.h"
 
 namespace dem_gpu {
 
@@ -15,6 +15,7 @@ template <>
 struct BasicMomentOrigin<Real> {
   TALUS_HD static BasicMomentOrigin at(const Vec3& /*corner*/) { return {}; }
   TALUS_HD const Vec3& to(const Vec3& x) const { return x; }
+  TALUS_HD const RealLaneVec3& to(const RealLaneVec3& x) const { return x; }
   TALUS_HD const Vec3& first_about_centre(const Vec3& moment, Real /*weight*/) const { return moment; }
   TALUS_HD Real second_about_centre(Real second, const Vec3& /*moment*/, Real /*weight*/) const { return second; }
 };
@@ -26,6 +27,10 @@ struct BasicMomentOrigin<float> {
   TALUS_HD static BasicMomentOrigin at(const Vector3<float>& corner) { return {corner}; }
   /// From the origin to x.
   TALUS_HD Vector3<float> to(const Vector3<float>& x) const { return x - corner; }
+  template <class FloatLanes>
+  TALUS_HD LaneVector<FloatLanes> to(const LaneVector<FloatLanes>& x) const {
+    return x - corner;
+  }
   /// Moments about the body's centre from `weight` (integral of w dA) and the moments about the origin.
   TALUS_HD Vec3 first_about_centre(const Vector3<float>& moment, float weight) const {
     return Vec3(moment) + Real(weight) * Vec3(corner);
