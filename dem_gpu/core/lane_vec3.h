@@ -14,7 +14,7 @@ struct LaneVector {
   TALUS_HD LaneVector& operator+=(const LaneVector& b) { return x += b.x, y += b.y, z += b.z, *this; }
 };
 using LaneVec3 = LaneVector<Lanes>;
-using RealLaneVec3 = LaneVector<RealLanes>;
+using WideLaneVec3 = LaneVector<WideLanes>;
 
 template <class SomeLanes>
 TALUS_HD LaneVector<SomeLanes> operator+(const LaneVector<SomeLanes>& a, const LaneVector<SomeLanes>& b) {
@@ -60,8 +60,8 @@ TALUS_HD inline LaneVec3 in_order(const LaneVec3& a, const LaneIndex& index) {
 }
 TALUS_HD inline LaneVec3 next_lane(const LaneVec3& a) { return {next_lane(a.x), next_lane(a.y), next_lane(a.z)}; }
 TALUS_HD inline LaneVec3 first_lane(const LaneVec3& a) { return {first_lane(a.x), first_lane(a.y), first_lane(a.z)}; }
-TALUS_HD inline RealLaneVec3 widened(const LaneVec3& a) { return {widened(a.x), widened(a.y), widened(a.z)}; }
-TALUS_HD inline LaneVec3 rounded(const RealLaneVec3& a) { return {rounded(a.x), rounded(a.y), rounded(a.z)}; }
+TALUS_HD inline WideLaneVec3 widened(const LaneVec3& a) { return {widened(a.x), widened(a.y), widened(a.z)}; }
+TALUS_HD inline LaneVec3 rounded(const WideLaneVec3& a) { return {rounded(a.x), rounded(a.y), rounded(a.z)}; }
 template <class SomeLanes>
 TALUS_HD auto sum_of_lanes(const LaneVector<SomeLanes>& a) {
   using Scalar = decltype(sum_of_lanes(a.x));

@@ -83,7 +83,7 @@ struct LaneArray {
 };
 
 using Lanes = LaneArray<LocalReal>;
-using RealLanes = LaneArray<Real>;
+using WideLanes = LaneArray<Real>;
 
 template <class Number>
 TALUS_HD LaneArray<Number> load_lanes(const Number* values) {
@@ -93,10 +93,10 @@ template <class Number>
 TALUS_HD void store_lanes(const LaneArray<Number>& a, Number* values) {
   for (int i = 0; i < kLanes; ++i) values[i] = a[i];
 }
-TALUS_HD inline RealLanes widened(const Lanes& a) {
-  return RealLanes::each([&](int i) { return Real(a[i]); });
+TALUS_HD inline WideLanes widened(const Lanes& a) {
+  return WideLanes::each([&](int i) { return Real(a[i]); });
 }
-TALUS_HD inline Lanes rounded(const RealLanes& a) {
+TALUS_HD inline Lanes rounded(const WideLanes& a) {
   return Lanes::each([&](int i) { return LocalReal(a[i]); });
 }
 TALUS_HD inline Lanes least(const Lanes& a, const Lanes& b) {
@@ -126,8 +126,8 @@ TALUS_HD inline LaneSet lanes_above(const Lanes& a, const Lanes& b) {
   for (int i = 0; i < kLanes; ++i) set |= static_cast<LaneSet>(a[i] > b[i]) << i;
   return set;
 }
-TALUS_HD inline LaneSet lanes_above(const RealLanes& a,
-                                    const RealLanes& b) requires(sizeof(LocalReal) != sizeof(Real)) {
+TALUS_HD inline LaneSet lanes_above(const WideLanes& a,
+                                    const WideLanes& b) requires(sizeof(LocalReal) != sizeof(Real)) {
   LaneSet set = 0;
   for (int i = 0; i < kLanes; ++i) set |= static_cast<LaneSet>(a[i] > b[i]) << i;
   return set;
@@ -143,7 +143,7 @@ TALUS_HD inline Lanes gathered(const LocalReal* values, const LaneOrder& order) 
 #else
 
 using Lanes = LocalReal __attribute__((vector_size(kLanes * sizeof(LocalReal))));
-using RealLanes = Real __attribute__((vector_size(kLanes * sizeof(Real))));
+using WideLanes = Real __attribute__((vector_size(kLanes * sizeof(Real))));
 using WideIndex = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
 
 template <class SomeLanes, class Number>
@@ -159,12 +159,12 @@ inline void store_lanes(const Lanes& a, LocalReal* values) { __builtin_memcpy(va
 
 #if defined(TALUS_MIXED_PRECISION)
 using LaneIndex = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
-inline RealLanes widened(const Lanes& a) { return __builtin_convertvector(a, RealLanes); }
-inline Lanes rounded(const RealLanes& a) { return __builtin_convertvector(a, Lanes); }
+inline WideLanes widened(const Lanes& a) { return __builtin_convertvector(a, WideLanes); }
+inline Lanes rounded(const WideLanes& a) { return __builtin_convertvector(a, Lanes); }
 #else
 using LaneIndex = WideIndex;
-inline const RealLanes& widened(const Lanes& a) { return a; }
-inline const Lanes& rounded(const RealLanes& a) { return a; }
+inline const WideLanes& widened(const Lanes& a) { return a; }
+inline const Lanes& rounded(const WideLanes& a) { return a; }
 #endif
 
 inline Lanes least(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
@@ -196,7 +196,7 @@ inline Lanes gathered(const LocalReal* values, const LaneOrder& order) {
 #endif
 }
 
-inline LaneSet lanes_above(const RealLanes& a, const RealLanes& b) {
+inline LaneSet lanes_above(const WideLanes& a, const WideLanes& b) {
 #if defined(__AVX512F__)
   return _mm512_cmp_pd_mask(__m512d(a), __m512d(b), _CMP_GT_OQ);
 #else

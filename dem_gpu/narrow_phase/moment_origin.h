@@ -15,9 +15,16 @@ template <>
 struct BasicMomentOrigin<Real> {
   TALUS_HD static BasicMomentOrigin at(const Vec3& /*corner*/) { return {}; }
   TALUS_HD const Vec3& to(const Vec3& x) const { return x; }
-  TALUS_HD const RealLaneVec3& to(const RealLaneVec3& x) const { return x; }
+  TALUS_HD const WideLaneVec3& to(const WideLaneVec3& x) const { return x; }
   TALUS_HD const Vec3& first_about_centre(const Vec3& moment, Real /*weight*/) const { return moment; }
   TALUS_HD Real second_about_centre(Real second, const Vec3& /*moment*/, Real /*weight*/) const { return second; }
+  TALUS_HD const WideLaneVec3& first_about_centre(const WideLaneVec3& moment, const WideLanes& /*weight*/) const {
+    return moment;
+  }
+  TALUS_HD const WideLanes& second_about_centre(const WideLanes& second, const WideLaneVec3& /*moment*/,
+                                                const WideLanes& /*weight*/) const {
+    return second;
+  }
 };
 
 template <>
@@ -38,6 +45,16 @@ struct BasicMomentOrigin<float> {
   TALUS_HD Real second_about_centre(float second, const Vector3<float>& moment, float weight) const {
     const Vec3 centre_to_origin = corner;
     return second + 2 * dot(centre_to_origin, moment) + norm_squared(centre_to_origin) * weight;
+  }
+  TALUS_HD WideLaneVec3 first_about_centre(const LaneVec3& moment, const Lanes& weight) const {
+    const WideLanes w = widened(weight);
+    const WideLaneVec3 about_origin = widened(moment);
+    const Vec3 c = corner;
+    return {about_origin.x + c.x * w, about_origin.y + c.y * w, about_origin.z + c.z * w};
+  }
+  TALUS_HD WideLanes second_about_centre(const Lanes& second, const LaneVec3& moment, const Lanes& weight) const {
+    const Vec3 c = corner;
+    return widened(second) + 2 * dot(c, widened(moment)) + norm_squared(c) * widened(weight);
   }
 };
 

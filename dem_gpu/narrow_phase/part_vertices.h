@@ -41,7 +41,7 @@ struct PartVertices {
   }
 };
 
-TALUS_HD inline RealLaneVec3 moved(const FrameChange& change, const RealLaneVec3& p) {
+TALUS_HD inline WideLaneVec3 moved(const FrameChange& change, const WideLaneVec3& p) {
   const Mat3& r = change.rotation;
   const auto row = [&](Real a, Real b, Real c, Real shift) {
     return change.scale * (a * p.x + b * p.y + c * p.z) + shift;

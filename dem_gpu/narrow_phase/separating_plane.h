@@ -18,7 +18,7 @@ TALUS_HD inline bool lies_outside(const PartView& part, const HalfSpace& plane, 
                       plane.offset - dot(plane.normal, to_plane.translation)};
   const int blocks = (part.range.vertex_count + kLanes - 1) / kLanes;
   for (int i = 0; i < blocks; ++i)
-    if (lanes_above(depths_below(own, widened(load_points(part.vertex_blocks[i]))), RealLanes{}) != 0) return false;
+    if (lanes_above(depths_below(own, widened(load_points(part.vertex_blocks[i]))), WideLanes{}) != 0) return false;
   return true;
 }
 

@@ -29,11 +29,20 @@ struct VolumeIntegralsOf {
   bool has_reference = false;
   Sums patch;  // of the area
 
+  /// What friction needs of one side's surface inside the other.
+  struct SideLanes {
+    WideLanes area{};
+    WideLaneVec3 vector_area{};  // outwards
+  };
   /// The sums of the pair of parts at hand, lane by lane: `finish` adds them up.
   struct LaneSums {
-    RealLanes volume{};
-    RealLaneVec3 area{}, area_moment{}, first_moment{};
-    RealLanes xx{}, xy{}, xz{}, yy{}, yz{}, zz{};  // of the second moment
+    WideLanes volume{};
+    WideLaneVec3 area{}, area_moment{}, first_moment{};
+    WideLanes xx{}, xy{}, xz{}, yy{}, yz{}, zz{};  // of the second moment
+    // With friction.
+    SideLanes side_a, side_b;
+    WideLaneVec3 patch_first{};
+    WideLanes patch_second{};
   };
   LaneSums lanes;
 
@@ -43,7 +52,7 @@ struct VolumeIntegralsOf {
     const Fan fan(polygon.corners, normal);
     add_volume(fan, normal);
     if constexpr (kHasPatch)
-      if (is_outer) add_area(patch.side_b, fan, normal, 1);
+      if (is_outer) add_area(lanes.side_b, fan, normal);
   }
 
   TALUS_HD void add_surface_a(const Polygon& polygon, const LocalHalfSpace& plane_a, bool is_outer, const PartView&,
@@ -52,10 +61,10 @@ struct VolumeIntegralsOf {
     const Fan fan(rounded(moved(b_to_a, widened(polygon.corners))), normal);
     add_volume(fan, normal);
     if constexpr (kHasPatch)
-      if (is_outer) add_area(patch.side_a, fan, normal, -1);
-    const RealLaneVec3 first = widened((LocalReal(1) / 3) * fan.area * (fan.a + fan.b + fan.c));
+      if (is_outer) add_area(lanes.side_a, fan, normal);
+    const WideLaneVec3 first = widened((LocalReal(1) / 3) * fan.area * (fan.a + fan.b + fan.c));
     const Vec3 n = normal;
-    const RealLanes part = widened(fan.area);
+    const WideLanes part = widened(fan.area);
     lanes.area += {n.x * part, n.y * part, n.z * part};
     lanes.area_moment += {n.z * first.y - n.y * first.z, n.x * first.z - n.z * first.x, n.y * first.x - n.x * first.y};
   }
@@ -70,6 +79,12 @@ struct VolumeIntegralsOf {
     second_moment.column_x += Vec3{sum_of_lanes(lanes.xx), xy, xz};
     second_moment.column_y += Vec3{xy, sum_of_lanes(lanes.yy), yz};
     second_moment.column_z += Vec3{xz, yz, sum_of_lanes(lanes.zz)};
+    if constexpr (kHasPatch) {
+      add_side(patch.side_a, lanes.side_a, -1);
+      add_side(patch.side_b, lanes.side_b, 1);
+      patch.first_moment += sum_of_lanes(lanes.patch_first);
+      patch.second_moment += sum_of_lanes(lanes.patch_second);
+    }
     lanes = {};
   }
 
@@ -119,28 +134,39 @@ struct VolumeIntegralsOf {
     }
   };
 
-  /// `sign`: the force on a points along b's normals and against a's.
-  TALUS_HD void add_area(PatchSide& side, const Fan& fan, const LocalVec3& normal, Real sign) {
+  /// `sign`: the force on a points along b's normals and against a's. The whole side counts as one contact.
+  TALUS_HD void add_side(PatchSide& side, const SideLanes& sums, Real sign) {
+    const Real area_of_side = sum_of_lanes(sums.area);
+    const Vec3 direction = sign * sum_of_lanes(sums.vector_area);
+    side.pointed += direction;
+    side.total += direction;
+    side.weight += area_of_side;
+    patch.weight += area_of_side;
+  }
+  /// Adds a piece of a side's outer surface to what friction needs.
+  TALUS_HD TALUS_INLINE void add_area(SideLanes& side, const Fan& fan, const LocalVec3& normal) {
     const MomentOrigin origin = MomentOrigin::at(lane(fan.a, 0));
     const LaneVec3 a = origin.to(fan.a), b = origin.to(fan.b), c = origin.to(fan.c);
-    const LocalReal total = sum_of_lanes(fan.area);
-    const LocalVec3 first = sum_of_lanes((LocalReal(1) / 3) * fan.area * (a + b + c));
+    const LaneVec3 first = (LocalReal(1) / 3) * fan.area * (a + b + c);
     const Lanes one = every_lane<Lanes>(LocalReal(1));
-    const LocalReal second =
-        sum_of_lanes(LinearProfile{}.second_moment(DepthTriangles{a, b, c, one, one, one, fan.area}));
-    patch.add(side, total, 0, sign * Vec3(normal), origin.first_about_centre(first, total),
-              origin.second_about_centre(second, first, total));
+    const Lanes second = LinearProfile{}.second_moment(DepthTriangles{a, b, c, one, one, one, fan.area});
+    const WideLanes area = widened(fan.area);
+    const Vec3 n = normal;
+    side.area += area;
+    side.vector_area += {n.x * area, n.y * area, n.z * area};
+    lanes.patch_first += origin.first_about_centre(first, fan.area);
+    lanes.patch_second += origin.second_about_centre(second, first, fan.area);
   }
   TALUS_HD TALUS_INLINE void add_volume(const Fan& fan, const LocalVec3& normal) {
     if (!has_reference) reference = lane(fan.a, 0), has_reference = true;
     const LocalVec3 origin = rounded(reference);
     const LaneVec3 a = fan.a - origin, b = fan.b - origin, c = fan.c - origin, sum = a + b + c;
     const LocalReal height = dot(lane(a, 0), normal);            // the same over the plane of the polygon
-    const RealLanes pyramid = widened((height / 3) * fan.area);  // to the reference point
+    const WideLanes pyramid = widened((height / 3) * fan.area);  // to the reference point
     lanes.volume += pyramid;
     // Its centroid lies at 3/4 of the way to the base's.
     lanes.first_moment += Real(0.25) * pyramid * widened(sum);
-    const RealLanes share = Real(0.05) * pyramid;
+    const WideLanes share = Real(0.05) * pyramid;
     const auto mean = [](const Lanes& ai, const Lanes& aj, const Lanes& bi, const Lanes& bj, const Lanes& ci,
                          const Lanes& cj, const Lanes& si,
                          const Lanes& sj) { return widened(ai * aj + bi * bj + ci * cj + si * sj); };

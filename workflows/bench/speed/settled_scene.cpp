@@ -50,8 +50,7 @@ const Settled& settled_once(const SpeedScene& speed_scene) {
 
 dem_gpu::Scene scene_at(const SpeedScene& speed_scene, Moment moment, const SceneOptions& options) {
   const Settled& settled = settled_once(speed_scene);
-  return benchmark_scenes::resumed(speed_scene.make(options),
-                                   moment == Moment::busy ? settled.busy : settled.settled);
+  return benchmark_scenes::resumed(speed_scene.make(options), moment == Moment::busy ? settled.busy : settled.settled);
 }
 
 }  // namespace workflows

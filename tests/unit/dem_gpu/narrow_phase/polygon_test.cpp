@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cuts of polygons: of the lanes' polygon against the plain one of Sutherland and Hodgman, and both against areas known.
+// Cuts of polygons: of the lanes' polygon against the plain one of Sutherland and Hodgman, and both against areas
+// known.
 #include "dem_gpu/narrow_phase/polygon.h"
 
 #include <gtest/gtest.h>
