@@ -8,6 +8,7 @@
 #include "dem_gpu/contacts/elastic_contact.h"
 #include "dem_gpu/contacts/friction/friction_contact.h"
 #include "dem_gpu/contacts/normal_orbit.h"
+#include "dem_gpu/contacts/normal_series.h"
 
 namespace dem_gpu {
 
@@ -69,6 +70,38 @@ struct PointDamping {
   }
 };
 
+/// Sub-steps of an orbit. `progress`: duration times the rates of the motion [-].
+TALUS_HD inline int orbit_substeps(Real progress, bool is_first) {
+  // Share of 1 / (rates) that a sub-step spans: restitution is then right to 1e-5 at 20 steps a contact.
+  constexpr Real kProgressPerSubstep = Real(0.1);
+  constexpr int kFirstSubsteps = 6, kMostSubsteps = 512;
+  const int needed = static_cast<int>(std::ceil(progress / kProgressPerSubstep));
+  const int least = is_first ? kFirstSubsteps : 1;
+  return std::min(std::max(needed, least), kMostSubsteps);
+}
+
+/// A step along the orbit in sub-steps: with touch or release in it, or a depth that changes much.
+template <class Law>
+TALUS_HD TALUS_ONE_COPY NormalKick<Real> orbit_in_substeps(const NormalStart<Real>& start, Real step, bool is_first) {
+  const NormalAcceleration law{start.depth, start.elastic, start.damping, start.adhesion, Law::kExponent > 1};
+  const Real rate = std::sqrt(Law::kExponent * start.elastic / start.depth);
+  NormalOrbit orbit{law, start.depth, start.speed, start.acceleration};
+  Real duration = step;
+  if (is_first) duration += orbit.back_to_touch(step);
+  orbit.advance(duration, orbit_substeps((rate + start.damping) * duration, is_first), is_first);
+  return {orbit.kick, orbit.has_parted ? orbit.kick : orbit.shift / step};
+}
+
+template <class Law>
+TALUS_HD NormalKick<Real> orbit_kick(const NormalStart<Real>& start, Real step, bool is_first) {
+  NormalSeries<Law, Real> series;
+  if (!is_first) {
+    const NormalKick<Real> kick = series.advance(start, step);
+    if (series.is_good()) return kick;
+  }
+  return orbit_in_substeps<Law>(start, step, is_first);
+}
+
 /// The same dashpot for the power law F ~ depth^n of a sphere law, integrated within the step: restitution does not
 /// depend on the step, nor on where in a step the spheres touch. Velocity Verlet gets the mean force that takes the
 /// pair to where its orbit ends.
@@ -96,13 +129,15 @@ struct OrbitDamping {
       elastic.force = -mass * kick / step * elastic.normal;  // without a dashpot all of it is elastic
       return {};
     }
-    NormalOrbit orbit{law, elastic.depth, impact.mean_speed + step / 2 * by_others - owed, by_others + impact.turning};
-    Real duration = step;
-    if (is_first) duration += orbit.back_to_touch(step);
-    orbit.advance(duration, substeps((rate + damping) * duration, is_first), is_first);
-    const Real kick = orbit.has_parted ? orbit.kick : orbit.shift / step;
-    contacts.owed_kick[c] = orbit.kick - kick;
-    elastic.force = -mass * (owed + kick) / step * elastic.normal;
+    const NormalStart<Real> start{elastic.depth,
+                                  impact.mean_speed + step / 2 * by_others - owed,
+                                  by_others + impact.turning,
+                                  law.elastic,
+                                  damping,
+                                  law.adhesion};
+    const NormalKick<Real> orbit = orbit_kick<Law>(start, step, is_first);
+    contacts.owed_kick[c] = orbit.kick - orbit.mean;
+    elastic.force = -mass * (owed + orbit.mean) / step * elastic.normal;
     if (damping == 0) return {};
     return {0, true};
   }
@@ -143,17 +178,6 @@ struct OrbitDamping {
     return before + step * force;
   }
 
-  /// `progress`: duration times the rates of the motion [-].
-  TALUS_HD static int substeps(Real progress, bool is_first) {
-    const int needed = static_cast<int>(std::ceil(progress / kProgressPerSubstep));
-    const int least = is_first ? kFirstSubsteps : 1, most = kMostSubsteps;
-    return std::min(std::max(needed, least), most);
-  }
-
-  /// Share of 1 / (rates) that a sub-step spans: restitution is then right to 1e-5 at 20 steps a contact.
-  static constexpr Real kProgressPerSubstep = 0.1;
-  static constexpr int kFirstSubsteps = 6;
-  static constexpr int kMostSubsteps = 512;
   static constexpr int kElasticSubsteps = 4;
   static constexpr Real kFineStep = 0.2;  // of 1 / rate: 16 steps a contact
 };
