@@ -35,8 +35,8 @@ struct NormalSeries {
   static constexpr Real kSeriesTolerance = Real(1e-5);
 
   // Times in steps, lengths in depths at the start.
-  Number depth[kOrder + 3];     // coefficients of depth
-  Number contact[kOrder + 1];   // of the contact's acceleration, adhesion apart
+  Number depth[kOrder + 3];    // coefficients of depth
+  Number contact[kOrder + 1];  // of the contact's acceleration, adhesion apart
 
   TALUS_HD NormalKick<Number> advance(const NormalStart<Number>& start, Real step) {
     constexpr Real kForcePower = Law::kExponent, kDampingPower = (Law::kExponent - 1) / 2;

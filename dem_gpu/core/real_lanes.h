@@ -7,7 +7,12 @@
 #include "dem_gpu/core/host_device.h"
 #include "dem_gpu/core/real.h"
 #if defined(__AVX512F__) && defined(__AVX512DQ__) && !defined(__CUDACC__)
+// GCC 12 takes the undefined registers of its own header for a mistake (GCC bug 105593).
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #include <immintrin.h>
+#pragma GCC diagnostic pop
 #define TALUS_AVX512 1
 #endif
 
@@ -17,6 +22,7 @@
 
 namespace dem_gpu {
 
+TALUS_HD inline float square_root(float a) { return std::sqrt(a); }
 TALUS_HD inline Real square_root(Real a) { return std::sqrt(a); }
 TALUS_HD inline Real magnitude(Real a) { return std::abs(a); }
 TALUS_HD inline Real smaller(Real a, Real b) { return a < b ? a : b; }
@@ -30,6 +36,7 @@ inline constexpr int kRealLanes = 1;
 using RealLanes = Real;
 TALUS_HD inline Real& lane(RealLanes& a, int /*i*/) { return a; }
 TALUS_HD inline Real lane(const RealLanes& a, int /*i*/) { return a; }
+TALUS_HD inline RealLanes load_lanes_at(const Real* values) { return *values; }
 
 #else
 
@@ -45,6 +52,11 @@ inline RealLanes smaller(const RealLanes& a, const RealLanes& b) { return a < b 
 inline RealLanes larger(const RealLanes& a, const RealLanes& b) { return a > b ? a : b; }
 inline Real& lane(RealLanes& a, int i) { return reinterpret_cast<Real*>(&a)[i]; }
 inline Real lane(const RealLanes& a, int i) { return a[i]; }
+inline RealLanes load_lanes_at(const Real* values) {
+  RealLanes lanes;
+  __builtin_memcpy(&lanes, values, sizeof(lanes));
+  return lanes;
+}
 
 inline RealLanes square_root(const RealLanes& a) {
 #if defined(TALUS_AVX512)
