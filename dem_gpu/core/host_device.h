@@ -14,3 +14,11 @@
 
 /// For the small functions of contact geometry: a call would pass their vectors through memory.
 #define TALUS_INLINE inline __attribute__((always_inline))
+
+/// All that a function calls becomes part of it: wide vectors that go through memory from call to call cost more than
+/// the work on them.
+#if defined(__CUDACC__)
+#define TALUS_ALL_INLINED
+#else
+#define TALUS_ALL_INLINED __attribute__((flatten))
+#endif

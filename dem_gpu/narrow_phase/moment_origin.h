@@ -35,7 +35,7 @@ struct BasicMomentOrigin<float> {
   /// From the origin to x.
   TALUS_HD Vector3<float> to(const Vector3<float>& x) const { return x - corner; }
   template <class FloatLanes>
-  TALUS_HD LaneVector<FloatLanes> to(const LaneVector<FloatLanes>& x) const {
+  TALUS_HD Vector3<FloatLanes> to(const Vector3<FloatLanes>& x) const {
     return x - corner;
   }
   /// Moments about the body's centre from `weight` (integral of w dA) and the moments about the origin.

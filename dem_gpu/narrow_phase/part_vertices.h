@@ -16,7 +16,7 @@ TALUS_HD inline LaneVec3 load_points(const VertexBlock& block) { return load_poi
 
 /// Depths of points below a plane.
 template <class SomeLanes, class Scalar>
-TALUS_HD SomeLanes depths_below(const BasicHalfSpace<Scalar>& plane, const LaneVector<SomeLanes>& points) {
+TALUS_HD SomeLanes depths_below(const BasicHalfSpace<Scalar>& plane, const Vector3<SomeLanes>& points) {
   return plane.offset - dot(plane.normal, points);
 }
 

@@ -16,7 +16,7 @@ struct Polygon {
   int count = 0;
   bool is_truncated = false;  // a corner did not fit: reported by the host, never dropped in silence
 
-  TALUS_HD LocalVec3 corner(int i) const { return lane(corners, i); }
+  TALUS_HD LocalVec3 corner(int i) const { return point_at(corners, i); }
   /// Its lanes that are corners.
   TALUS_HD LaneSet all() const { return (1u << count) - 1; }
 };

@@ -145,7 +145,7 @@ struct VolumeIntegralsOf {
   }
   /// Adds a piece of a side's outer surface to what friction needs.
   TALUS_HD TALUS_INLINE void add_area(SideLanes& side, const Fan& fan, const LocalVec3& normal) {
-    const MomentOrigin origin = MomentOrigin::at(lane(fan.a, 0));
+    const MomentOrigin origin = MomentOrigin::at(point_at(fan.a, 0));
     const LaneVec3 a = origin.to(fan.a), b = origin.to(fan.b), c = origin.to(fan.c);
     const LaneVec3 first = (LocalReal(1) / 3) * fan.area * (a + b + c);
     const Lanes one = every_lane<Lanes>(LocalReal(1));
@@ -158,10 +158,10 @@ struct VolumeIntegralsOf {
     lanes.patch_second += origin.second_about_centre(second, first, fan.area);
   }
   TALUS_HD TALUS_INLINE void add_volume(const Fan& fan, const LocalVec3& normal) {
-    if (!has_reference) reference = lane(fan.a, 0), has_reference = true;
+    if (!has_reference) reference = point_at(fan.a, 0), has_reference = true;
     const LocalVec3 origin = rounded(reference);
     const LaneVec3 a = fan.a - origin, b = fan.b - origin, c = fan.c - origin, sum = a + b + c;
-    const LocalReal height = dot(lane(a, 0), normal);            // the same over the plane of the polygon
+    const LocalReal height = dot(point_at(a, 0), normal);        // the same over the plane of the polygon
     const WideLanes pyramid = widened((height / 3) * fan.area);  // to the reference point
     lanes.volume += pyramid;
     // Its centroid lies at 3/4 of the way to the base's.

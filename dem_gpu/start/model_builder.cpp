@@ -92,7 +92,7 @@ void set_bodies(const Scene& scene, const PreparedShapes& prepared, BodyConstant
   const std::size_t n = scene.bodies.size();
   const std::vector<ShapeRange> shapes = to_host(prepared.columns.shapes);
   std::vector<int> shape(n), material(n);
-  std::vector<Real> scale(n), mass(n), radius(n), diameter(n), width(n);
+  std::vector<Real> scale(n), mass(n), inverse_mass(n), radius(n), diameter(n), width(n);
   std::vector<Vec3> inertia(n), position(n), velocity(n), angular_velocity(n);
   std::vector<Quaternion> orientation(n);
   std::vector<char> active(n);
@@ -104,6 +104,7 @@ void set_bodies(const Scene& scene, const PreparedShapes& prepared, BodyConstant
     material[i] = body.material;
     scale[i] = s;
     mass[i] = density * range.volume * s * s * s;
+    inverse_mass[i] = body.is_fixed ? 0 : 1 / mass[i];
     inertia[i] = (density * s * s * s * s * s) * range.inertia;
     radius[i] = s * range.bounding_radius;
     diameter[i] = s * range.equivalent_diameter;
@@ -118,6 +119,7 @@ void set_bodies(const Scene& scene, const PreparedShapes& prepared, BodyConstant
   assign(constants.material, material);
   assign(constants.scale, scale);
   assign(constants.mass, mass);
+  assign(constants.inverse_mass, inverse_mass);
   assign(constants.inertia, inertia);
   assign(constants.bounding_radius, radius);
   assign(constants.diameter, diameter);
