@@ -42,7 +42,10 @@ struct BodyColumns {
   DeviceVector<Vec3> mean_velocity;               // [m/s]
   DeviceVector<Vec3> mean_angular_velocity;       // [rad/s]
   DeviceVector<Vec3> listed_position;             // when the neighbour list was built [m]
-  DeviceVector<Real> listed_displacement;         // distance from it; infinite if the body has gone wrong [m]
+  /// With pairs of polyhedra that wait: no point of the body has moved further than this since time 0, step by step
+  /// [m].
+  DeviceVector<Real> travel;
+  DeviceVector<Real> listed_displacement;  // distance from it; infinite if the body has gone wrong [m]
 };
 
 struct BodyView {
@@ -68,6 +71,7 @@ struct BodyView {
   Vec3* mean_velocity;
   Vec3* mean_angular_velocity;
   Vec3* listed_position;
+  Real* travel;
   Real* listed_displacement;
 
   /// Largest distance of a point from the centre that turning moves about; 0 for a sphere, which turns onto itself [m].
@@ -101,6 +105,7 @@ inline BodyView view(const BodyConstants& constants, BodyColumns& columns) {
           pointer(columns.mean_velocity),
           pointer(columns.mean_angular_velocity),
           pointer(columns.listed_position),
+          pointer(columns.travel),
           pointer(columns.listed_displacement)};
 }
 

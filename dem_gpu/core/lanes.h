@@ -99,11 +99,13 @@ TALUS_HD inline WideLanes widened(const Lanes& a) {
 TALUS_HD inline Lanes rounded(const WideLanes& a) {
   return Lanes::each([&](int i) { return LocalReal(a[i]); });
 }
-TALUS_HD inline Lanes least(const Lanes& a, const Lanes& b) {
-  return Lanes::each([&](int i) { return a[i] < b[i] ? a[i] : b[i]; });
+template <class Number>
+TALUS_HD LaneArray<Number> least(const LaneArray<Number>& a, const LaneArray<Number>& b) {
+  return LaneArray<Number>::each([&](int i) { return a[i] < b[i] ? a[i] : b[i]; });
 }
-TALUS_HD inline Lanes greatest(const Lanes& a, const Lanes& b) {
-  return Lanes::each([&](int i) { return a[i] > b[i] ? a[i] : b[i]; });
+template <class Number>
+TALUS_HD LaneArray<Number> greatest(const LaneArray<Number>& a, const LaneArray<Number>& b) {
+  return LaneArray<Number>::each([&](int i) { return a[i] > b[i] ? a[i] : b[i]; });
 }
 template <class Number>
 TALUS_HD LaneArray<Number> in_order(const LaneArray<Number>& a, const LaneOrder& order) {
@@ -167,8 +169,14 @@ inline const WideLanes& widened(const Lanes& a) { return a; }
 inline const Lanes& rounded(const WideLanes& a) { return a; }
 #endif
 
-inline Lanes least(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
-inline Lanes greatest(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
+template <class SomeLanes>
+SomeLanes least(const SomeLanes& a, const SomeLanes& b) {
+  return a < b ? a : b;
+}
+template <class SomeLanes>
+SomeLanes greatest(const SomeLanes& a, const SomeLanes& b) {
+  return a > b ? a : b;
+}
 
 /// An order unpacked, for use on several numbers.
 inline LaneIndex lane_index(const LaneOrder& order) {
@@ -244,12 +252,14 @@ TALUS_HD auto sum_of_lanes(const SomeLanes& a) {
   const SomeLanes fours = a + swapped_lanes(a, 4), twos = fours + swapped_lanes(fours, 2);
   return twos[0] + twos[1];
 }
-TALUS_HD inline LocalReal least_lane(const Lanes& a) {
-  const Lanes fours = least(a, swapped_lanes(a, 4)), twos = least(fours, swapped_lanes(fours, 2));
+template <class SomeLanes>
+TALUS_HD auto least_lane(const SomeLanes& a) {
+  const SomeLanes fours = least(a, swapped_lanes(a, 4)), twos = least(fours, swapped_lanes(fours, 2));
   return twos[0] < twos[1] ? twos[0] : twos[1];
 }
-TALUS_HD inline LocalReal greatest_lane(const Lanes& a) {
-  const Lanes fours = greatest(a, swapped_lanes(a, 4)), twos = greatest(fours, swapped_lanes(fours, 2));
+template <class SomeLanes>
+TALUS_HD auto greatest_lane(const SomeLanes& a) {
+  const SomeLanes fours = greatest(a, swapped_lanes(a, 4)), twos = greatest(fours, swapped_lanes(fours, 2));
   return twos[0] > twos[1] ? twos[0] : twos[1];
 }
 /// The first lane in all.

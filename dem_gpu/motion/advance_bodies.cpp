@@ -26,6 +26,9 @@ struct AdvanceBody {
     else
       turn_body(i);
     bodies.listed_displacement[i] = displacement(i, velocity);
+    if (bodies.travel)
+      bodies.travel[i] +=
+          time_step * (norm(velocity) + bodies.bounding_radius[i] * norm(bodies.mean_angular_velocity[i]));
   }
 
  private:

@@ -198,7 +198,8 @@ TALUS_HD bool integrate_near_depth(const PartView& solid, const PartVertices& ve
 enum class OverlapStatus : std::uint8_t { separated, overlapping, polygon_truncated };
 
 /// Sums `Integrals` over the overlap of part a of one body and part b of another. `b_to_a` and `a_to_b` are inverse
-/// frame changes; `separating` is the pair's cache. `Integrals` provides:
+/// frame changes; `separating` is the pair's cache. `distance`: of separated parts, that they are apart at least, in
+/// a's unscaled frame [m]; 0 where that is not known. `Integrals` provides:
 ///   kNeedsDepthPlanes                           whether depth fields are integrated; then also
 ///   is_truncated                                whether a piece of a polygon did not fit
 ///   finish()                                    without depth fields: ends the pair
@@ -207,9 +208,14 @@ enum class OverlapStatus : std::uint8_t { separated, overlapping, polygon_trunca
 /// Cut faces are visited too.
 template <class Integrals>
 TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, const FrameChange& b_to_a,
-                                         const FrameChange& a_to_b, SeparatingPlane& separating, Integrals& integrals) {
-  if (separating > 0 && lies_outside(b, a.planes[separating - 1], b_to_a)) return OverlapStatus::separated;
-  if (separating < 0 && lies_outside(a, b.planes[-separating - 1], a_to_b)) return OverlapStatus::separated;
+                                         const FrameChange& a_to_b, SeparatingPlane& separating, Integrals& integrals,
+                                         Real& distance) {
+  distance = 0;
+  if (separating != 0) {
+    distance = separating > 0 ? distance_outside(b, a.planes[separating - 1], b_to_a)
+                              : b_to_a.scale * distance_outside(a, b.planes[-separating - 1], a_to_b);
+    if (distance >= 0) return OverlapStatus::separated;
+  }
   separating = 0;
 
   PartVertices vertices_b, vertices_a;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "dem_gpu/narrow_phase/part_vertices.h"
 
@@ -11,15 +13,17 @@ namespace dem_gpu {
 /// bodies changes little in a step, so trying it first settles most separated pairs.
 using SeparatingPlane = std::int16_t;
 
-/// True if all vertices of `part` lie outside the plane, given in the frame that `to_plane` leads to.
-TALUS_HD inline bool lies_outside(const PartView& part, const HalfSpace& plane, const FrameChange& to_plane) {
+/// How far outside the plane, given in the frame that `to_plane` leads to, all vertices of `part` lie, in that frame's
+/// lengths [m]; negative if one lies inside.
+TALUS_HD inline Real distance_outside(const PartView& part, const HalfSpace& plane, const FrameChange& to_plane) {
   // The plane in the part's own frame: one transformation instead of one per vertex.
   const HalfSpace own{to_plane.scale * transpose_times(to_plane.rotation, plane.normal),
                       plane.offset - dot(plane.normal, to_plane.translation)};
   const int blocks = (part.range.vertex_count + kLanes - 1) / kLanes;
+  Real deepest = -std::numeric_limits<Real>::max();
   for (int i = 0; i < blocks; ++i)
-    if (lanes_above(depths_below(own, widened(load_points(part.vertex_blocks[i]))), WideLanes{}) != 0) return false;
-  return true;
+    deepest = std::max(deepest, greatest_lane(depths_below(own, widened(load_points(part.vertex_blocks[i])))));
+  return -deepest;
 }
 
 /// Planes within this distance, over the size of the two parts, count as one: above the rounding of vertices and planes

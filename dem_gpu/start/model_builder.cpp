@@ -176,6 +176,8 @@ Model make_model(const Scene& scene, PreparedShapes shapes, BodyColumns& at_star
       std::find(model.body_is_sphere.begin(), model.body_is_sphere.end(), 1) != model.body_is_sphere.end();
   model.features.has_polyhedra =
       std::find(model.body_is_sphere.begin(), model.body_is_sphere.end(), 0) != model.body_is_sphere.end();
+  model.features.has_waiting_pairs = model.features.has_polyhedra && !scene.periodic;
+  if (model.features.has_waiting_pairs) at_start.travel.assign(scene.bodies.size(), Real(0));
   model.features.has_friction_couples =
       has_rolling_friction(scene) || (model.features.has_friction && model.features.has_polyhedra);
   model.time_step = time_step(scene);
