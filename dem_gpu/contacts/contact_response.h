@@ -186,11 +186,12 @@ TALUS_HD inline Real turning(const ElasticContact& elastic, const Vec3& velocity
 /// Forces besides the elastic one, which damping may refine. Not part of respond, nor is write_contact, so that motion
 /// is the same with a record and without.
 template <class Damping, class Friction>
-TALUS_HD TALUS_ONE_COPY ContactForces contact_forces(const ContactView& contacts, int c, ElasticContact& elastic,
-                                                     const ContactSide& a, const ContactSide& b,
-                                                     const PairProperties& pair, const Friction& friction,
-                                                     const typename Friction::Patch& patch, const Step& step,
-                                                     Real diameter) {
+TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED ContactForces contact_forces(const ContactView& contacts, int c,
+                                                                       ElasticContact& elastic, const ContactSide& a,
+                                                                       const ContactSide& b, const PairProperties& pair,
+                                                                       const Friction& friction,
+                                                                       const typename Friction::Patch& patch,
+                                                                       const Step& step, Real diameter) {
   const Vec3 slip = a.predicted_velocity_at(elastic.point) - b.predicted_velocity_at(elastic.point);
   const Vec3 mean_slip = a.mean_velocity_at(elastic.point) - b.mean_velocity_at(elastic.point);
   ContactForces forces;
@@ -214,9 +215,10 @@ TALUS_HD inline Vec3 elastic_torque_on_b(const ElasticContact& elastic, const Co
 
 /// Forces on both sides, and what is kept of the contact.
 template <class Friction>
-TALUS_HD TALUS_ONE_COPY void write_contact(const ContactView& contacts, int c, const ElasticContact& elastic,
-                                           const ContactForces& forces, const ContactSide& a, const ContactSide& b,
-                                           Real time_step, Real diameter) {
+TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void write_contact(const ContactView& contacts, int c,
+                                                             const ElasticContact& elastic, const ContactForces& forces,
+                                                             const ContactSide& a, const ContactSide& b, Real time_step,
+                                                             Real diameter) {
   const Vec3 at_point = forces.damping + forces.friction.force;
   contacts.force[c] = elastic.force + at_point;
   contacts.torque_a[c] = elastic.torque_a + cross(elastic.point - a.centre, at_point);

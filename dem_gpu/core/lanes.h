@@ -262,6 +262,23 @@ TALUS_HD auto greatest_lane(const SomeLanes& a) {
   const SomeLanes fours = greatest(a, swapped_lanes(a, 4)), twos = greatest(fours, swapped_lanes(fours, 2));
   return twos[0] > twos[1] ? twos[0] : twos[1];
 }
+/// Lane k: the sum of the lanes of `of[k]`.
+TALUS_HD TALUS_INLINE Lanes sums_of_lanes(const Lanes (&of)[kLanes]) {
+#if defined(__CUDACC__)
+  return Lanes::each([&](int i) { return sum_of_lanes(of[i]); });
+#else
+  const auto pairs = [](const Lanes& a, const Lanes& b) {
+    return __builtin_shuffle(a, b, LaneIndex{0, 8, 2, 10, 4, 12, 6, 14}) +
+           __builtin_shuffle(a, b, LaneIndex{1, 9, 3, 11, 5, 13, 7, 15});
+  };
+  const auto halves = [](const Lanes& a, const Lanes& b) {
+    return __builtin_shuffle(a, b, LaneIndex{0, 1, 4, 5, 8, 9, 12, 13}) +
+           __builtin_shuffle(a, b, LaneIndex{2, 3, 6, 7, 10, 11, 14, 15});
+  };
+  return halves(halves(pairs(of[0], of[1]), pairs(of[2], of[3])), halves(pairs(of[4], of[5]), pairs(of[6], of[7])));
+#endif
+}
+
 /// The first lane in all.
 TALUS_HD inline Lanes first_lane(const Lanes& a) { return every_lane<Lanes>(a[0]); }
 

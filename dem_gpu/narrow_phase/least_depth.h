@@ -88,21 +88,23 @@ class Contenders {
   int count_ = 0;
 };
 
-/// visitor(piece, plane) for the pieces on which each contender is least, of those still standing.
+/// visitor(piece, plane) for the pieces on which each contender is least, of those still standing. `contending`: the
+/// plane of each.
 template <class Visitor>
-TALUS_HD void visit_cells(const Polygon& polygon, const LocalHalfSpace* planes, Contenders& contenders,
-                          Visitor&& visitor) {
+TALUS_HD void visit_cells(const Polygon& polygon, const LocalHalfSpace* planes, const std::uint8_t* contending,
+                          Contenders& contenders, Visitor&& visitor) {
   contenders.compare();
   for (std::uint64_t standing = contenders.standing(); standing != 0; standing &= standing - 1) {
     const int k = lowest_bit(standing);
     ShrinkingPolygon cell{polygon};
     for (std::uint64_t left = contenders.cutting(k); left != 0 && !cell.is_empty; left &= left - 1) {
       const int m = lowest_bit(left);
-      cell.keep(lower_side(planes[k], planes[m]), k < m);
+      cell.keep(lower_side(planes[contending[k]], planes[contending[m]]), k < m);
     }
-    if (!cell.is_empty) visitor(cell.piece, planes[k]);
+    if (!cell.is_empty) visitor(cell.piece, planes[contending[k]]);
   }
 }
+static_assert(kMostPlanesOnPolygon <= 256);
 
 /// The same as visit_least_depth for any number of planes, each compared with each.
 template <class Visitor>
@@ -136,7 +138,7 @@ TALUS_HD void visit_least_depth(const Polygon& polygon, const LocalHalfSpace* pl
   }
   const Lanes bound = depths_below(planes[flattest], polygon.corners);
   Contenders contenders;
-  ScratchArray<LocalHalfSpace, Contenders::kMost> contending;
+  ScratchArray<std::uint8_t, Contenders::kMost> contending;
   for (int i = 0; i < plane_count; ++i) {
     const Lanes depths = depths_below(planes[i], polygon.corners);
     if (i != flattest && lanes_above(bound, depths) == 0) continue;
@@ -144,14 +146,14 @@ TALUS_HD void visit_least_depth(const Polygon& polygon, const LocalHalfSpace* pl
       visit_every_cell(polygon, planes, plane_count, visitor);
       return;
     }
-    contending[contenders.count()] = planes[i];
+    contending[contenders.count()] = static_cast<std::uint8_t>(i);
     contenders.add(depths);
   }
   if (contenders.count() == 1) {
     visitor(polygon, planes[flattest]);
     return;
   }
-  visit_cells(polygon, contending.data(), contenders, visitor);
+  visit_cells(polygon, planes, contending.data(), contenders, visitor);
 }
 
 }  // namespace dem_gpu

@@ -58,15 +58,19 @@ TALUS_HD void add_linear_depth(const Polygon& polygon, const LocalHalfSpace& pla
                      next_lane(depths),   {}};
   fan.area = LocalReal(0.5) * dot(normal, cross(fan.b - fan.a, fan.c - fan.a));
   const auto integrals = sum.profile.integrate(fan);
-  const LocalReal depth = sum_of_lanes(integrals.depth), area = sum_of_lanes(integrals.area);
-  sum.area += area;
-  sum.descent += area * plane.normal;
-  sum.depth += depth;
-  sum.depth_moment += sum_of_lanes(integrals.depth_moment);
+  Lanes second{};
+  if constexpr (Sum::kHasPatch) second = sum.profile.second_moment(fan);
+  const LaneVec3& moment = integrals.depth_moment;
+  const Lanes sums[kLanes] = {integrals.depth, integrals.area, moment.x, moment.y, moment.z, second, {}, {}};
+  const Lanes total = sums_of_lanes(sums);
+  sum.depth += total[0];
+  sum.area += total[1];
+  sum.descent += LocalReal(total[1]) * plane.normal;
+  sum.depth_moment += LocalVec3{total[2], total[3], total[4]};
   sum.largest = std::max(sum.largest, greatest_lane(depths));
   if constexpr (Sum::kHasPatch) {
-    sum.second_moment += sum_of_lanes(sum.profile.second_moment(fan));
-    sum.aligned += rounded(aligned_share(-dot(normal, plane.normal))) * depth;
+    sum.second_moment += total[5];
+    sum.aligned += rounded(aligned_share(-dot(normal, plane.normal))) * total[0];
   }
 }
 
