@@ -11,8 +11,8 @@ namespace benchmark_scenes {
 /// Throws catalog::InputError if there are other bodies.
 std::string lammps_particles(const dem_gpu::Scene& scene);
 
-/// A line a shape, "# sphere RADIUS" or "# VERTICES as x y z ...", then a line a body, "shape x y z w x y z" (centre and
-/// orientation). Throws catalog::InputError for a shape of several parts.
+/// A line a shape, "# sphere RADIUS" or "# VERTICES as x y z ...", then a line a body, "shape x y z w x y z" (centre
+/// and orientation). Throws catalog::InputError for a shape of several parts.
 std::string particle_table(const dem_gpu::Scene& scene);
 
 }  // namespace benchmark_scenes
