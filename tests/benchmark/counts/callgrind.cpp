@@ -32,8 +32,8 @@ double instructions_of(const std::vector<std::string>& command, bool counts_from
   for (const std::string& word : command) line += " " + quoted(word);
   line += " > " + quoted(said.string()) + " 2>&1";
   if (std::system(line.c_str()) != 0)
-    throw std::runtime_error("valgrind failed (it is installed by workflows/install_dependencies.sh); it said what is in " +
-                             said.string());
+    throw std::runtime_error(
+        "valgrind failed (it is installed by workflows/install_dependencies.sh); it said what is in " + said.string());
   return counted_total(output);
 }
 

@@ -22,9 +22,9 @@ fs::path snapshot_file(const fs::path& folder, const CountedRun& run) {
 }  // namespace
 
 const std::vector<CountedRun>& guard_runs() {
-  static const std::vector<CountedRun> runs{{"s1-small", "s1-box", Law::depth_potential, 1500, 200},
-                                            {"s2-small-volume", "s2", Law::overlap_volume, 150, 150},
-                                            {"s2-small-depth", "s2", Law::depth_potential, 150, 150}};
+  static const std::vector<CountedRun> runs{{"s1-small", "s1-box", Law::depth_potential, 1000, 150},
+                                            {"s2-small-volume", "s2", Law::overlap_volume, 100, 100},
+                                            {"s2-small-depth", "s2", Law::depth_potential, 100, 100}};
   return runs;
 }
 
@@ -48,8 +48,7 @@ const CountedRun& counted_run(const std::string& name) {
 void settle_into(const fs::path& folder, const CountedRun& run) {
   const fs::path file = snapshot_file(folder, run);
   if (fs::exists(file)) return;
-  dem_gpu::write_snapshot(file,
-                          benchmark_scenes::settle(benchmark_scenes::speed_scene(run.scene), run.bodies).settled);
+  dem_gpu::write_snapshot(file, benchmark_scenes::settle(benchmark_scenes::speed_scene(run.scene), run.bodies).settled);
 }
 
 void step_counted(const fs::path& folder, const CountedRun& run) {

@@ -80,9 +80,10 @@ void count_liggghts() {
   std::ofstream(particles) << benchmark_scenes::lammps_particles(benchmark_scenes::resumed(
       scene.make({}), dem_gpu::read_snapshot(folder.path() / (run.scene + "_" + std::to_string(run.bodies) + ".h5"))));
   const auto count_of = [&](int steps) {
-    return instructions_of({"liggghts", "-in", std::string(TALUS_PEER_SCRIPTS) + "/s1_box.liggghts", "-log", "none",
-                            "-var", "particles", particles.string(), "-var", "settle", std::to_string(steps)},
-                           true, folder.path());
+    return instructions_of(
+        {"liggghts", "-in", std::string(TALUS_PEER_SCRIPTS) + "/s1_box.liggghts", "-log", "none", "-var", "particles",
+         particles.string(), "-var", "settle", std::to_string(steps), "-var", "window", "0"},
+        true, folder.path());
   };
   constexpr int kSteps = 50;
   const double counted = (count_of(kWarmUpSteps + kSteps) - count_of(kWarmUpSteps)) / kSteps / run.bodies;
