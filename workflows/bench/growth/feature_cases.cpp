@@ -65,10 +65,13 @@ std::string passes_of(const Scene& scene) {
 }
 
 void add_plain(CaseResult& result, const std::string& name, const Scene& plain, const BedCost& cost) {
-  result.figures.push_back({name + ", " + dem_gpu::kPrecision + " precision: nothing on", cost.particle_step(), "ns",
-                            {}, ""});
+  result.figures.push_back(
+      {name + ", " + dem_gpu::kPrecision + " precision: nothing on", cost.particle_step(), "ns", {}, ""});
   result.figures.push_back({name + ": passes (" + passes_of(plain) + ")",
-                            static_cast<double>(dem_gpu::Simulation(plain).pass_names().size()), "-", {}, ""});
+                            static_cast<double>(dem_gpu::Simulation(plain).pass_names().size()),
+                            "-",
+                            {},
+                            ""});
 }
 
 }  // namespace
@@ -85,10 +88,10 @@ CaseResult measure_features() {
     feature.turn_on(scene);
     const BedCost cost = cost_of(scene), &base = has_spheres ? of_spheres : of_polyhedra;
     result.figures.push_back({feature.name, cost.particle_step(), "ns", {}, ""});
-    result.figures.push_back({feature.name + ", over nothing on", cost.particle_step() / base.particle_step(), "-", {},
-                              ""});
-    result.figures.push_back({feature.name + ": memory of a particle, over nothing on", cost.memory / base.memory, "-",
-                              {}, ""});
+    result.figures.push_back(
+        {feature.name + ", over nothing on", cost.particle_step() / base.particle_step(), "-", {}, ""});
+    result.figures.push_back(
+        {feature.name + ": memory of a particle, over nothing on", cost.memory / base.memory, "-", {}, ""});
   }
   return result;
 }

@@ -147,8 +147,7 @@ CaseResult measure_size_ratio() {
 
 CaseResult measure_parts() {
   Growth growth("parts", "a cube cut into parts, in a bed of cubes and truncated tetrahedra");
-  for (const std::array<int, 3>& cuts :
-       {std::array<int, 3>{1, 1, 1}, {2, 1, 1}, {2, 2, 1}, {2, 2, 2}, {3, 3, 3}}) {
+  for (const std::array<int, 3>& cuts : {std::array<int, 3>{1, 1, 1}, {2, 1, 1}, {2, 2, 1}, {2, 2, 2}, {3, 3, 3}}) {
     Scene whole = bed({"s2", Law::depth_potential, 2});
     whole.shapes[0] = cut_cube(0.01, cuts);
     const int parts = cuts[0] * cuts[1] * cuts[2];
