@@ -7,7 +7,7 @@ CUDA_ARCHITECTURES ?= 90
 NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
 STAGES := talus talus-digitize talus-generate talus-family talus-decompose talus-catalog talus-simulate talus-post
 
-.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy study gpu-check exact-pairs large-mesh large-cloud fuzz decomposition format check-format clean
+.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy study gpu-check instruction-counts record-instruction-counts peers exact-pairs large-mesh large-cloud fuzz decomposition format check-format clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -74,6 +74,19 @@ gpu-check: install  ## On a GPU machine: build the CUDA engine with its tests an
 	cmake --preset dem-cuda -DCMAKE_CUDA_ARCHITECTURES=native
 	cmake --build --preset dem-cuda --parallel $(JOBS)
 	ctest --test-dir build-dem-cuda --output-on-failure -L 'unit|property|validation|backend'
+
+COUNTS := tests/benchmark/instruction_counts.json
+instruction-counts: install $(BUILD)/CMakeCache.txt  ## Instructions of a particle and step by callgrind, S1 and S2, LIGGGHTS beside (about five minutes)
+	cmake --build $(BUILD) --parallel $(JOBS) --target instruction_counts
+	$(BUILD)/bin/instruction_counts --whole
+
+record-instruction-counts: install $(BUILD)/CMakeCache.txt  ## Renew what the test Benchmark.InstructionCounts compares with
+	cmake --build $(BUILD) --parallel $(JOBS) --target instruction_counts
+	$(BUILD)/bin/instruction_counts --record $(COUNTS)
+
+peers: install $(BUILD)/CMakeCache.txt  ## Talus beside LIGGGHTS, LAMMPS and YADE where they are installed (about ten minutes)
+	cmake --build $(BUILD) --parallel $(JOBS) --target time_scene write_particles
+	tests/benchmark/peers/compare.sh $(BUILD)
 
 exact-pairs: $(BUILD)/CMakeCache.txt  ## A million random pairs against exact arithmetic (25 CPU minutes); PAIRS=number
 	cmake --build $(BUILD) --parallel $(JOBS) --target dem_exact_test

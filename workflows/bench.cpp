@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -111,7 +112,12 @@ int list_benches(const Options& options) {
 }
 
 std::vector<BenchCase> chosen_cases(const BenchPlan& plan, const Options& options) {
-  if (options.only_case.empty()) return plan.cases;
+  if (options.only_case.empty()) {
+    std::vector<BenchCase> chosen;
+    std::copy_if(plan.cases.begin(), plan.cases.end(), std::back_inserter(chosen),
+                 [](const BenchCase& bench_case) { return !bench_case.is_apart; });
+    return chosen;
+  }
   std::vector<std::string> known;
   for (const BenchCase& bench_case : plan.cases) {
     if (bench_case.name == options.only_case) return {bench_case};

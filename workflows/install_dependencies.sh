@@ -8,7 +8,7 @@ set -euo pipefail
 engine_packages=(
   g++ cmake ninja-build make ccache git ca-certificates
   libsqlite3-dev zlib1g-dev libgtest-dev libtbb-dev libthrust-dev libhdf5-dev libtomlplusplus-dev
-  nlohmann-json3-dev libcli11-dev
+  nlohmann-json3-dev libcli11-dev valgrind
 )
 other_packages=(
   libpcl-dev libcgal-dev libeigen3-dev libassimp-dev libtiff-dev libvtk9-dev libopencv-dev

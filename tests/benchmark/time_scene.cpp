@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
 
 #include "dem_gpu/simulation.h"
+#include "tests/benchmark/scenes/resumed_scene.h"
+#include "tests/benchmark/scenes/settling.h"
 #include "tests/benchmark/scenes/speed_scenes.h"
 
 namespace {
@@ -18,8 +21,10 @@ using benchmark_scenes::SceneOptions;
 
 constexpr char kUsage[] =
     "usage: time_scene NAME [--law depth|volume] [--bodies N] [--overlap SHARE] [--steps-per-contact N] [--ledger]\n"
-    "                  [--settle SECONDS] [--window SECONDS] [--windows N] [--keep FOLDER]\n"
+    "                  [--settle SECONDS | --settled] [--window SECONDS] [--windows N] [--keep FOLDER]\n"
     "NAME: s1-box s1-drum s2 s3 s4 hopper-4 hopper-8 mill-4 mill-8\n"
+    "--settled: from where talus bench speed starts its windows, after 500 steps, instead of settling at full "
+    "accuracy\n"
     "--keep: settle once; later runs go on from the checkpoint in FOLDER\n";
 
 struct Options {
@@ -28,8 +33,11 @@ struct Options {
   double settle = -1;  // [s]; negative: the scene's own
   double window = benchmark_scenes::kWindow;
   int windows = benchmark_scenes::kWindows;
+  bool is_settled = false;
   std::filesystem::path keep;
 };
+
+constexpr int kResettlingSteps = 500;
 
 Options parsed(int argc, char** argv) {
   if (argc < 2) throw std::invalid_argument("no NAME");
@@ -39,6 +47,10 @@ Options parsed(int argc, char** argv) {
     const std::string name = argv[i];
     if (name == "--ledger") {
       options.of_scene.has_ledger = true;
+      continue;
+    }
+    if (name == "--settled") {
+      options.is_settled = true;
       continue;
     }
     if (++i == argc) throw std::invalid_argument(name + " needs a value");
@@ -70,6 +82,8 @@ double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
 void settle(dem_gpu::Simulation& simulation, double time, const std::filesystem::path& keep) {
   if (!keep.empty() && std::filesystem::exists(keep / "checkpoint.h5")) {
     simulation.read_checkpoint(keep);
@@ -90,11 +104,13 @@ void print_state(const dem_gpu::Simulation& simulation) {
   const dem_gpu::BulkState bulk = simulation.bulk();
   const dem_gpu::RunQuality quality = simulation.quality();
   double height = 0;
+  int of_pairs = 0;
   const dem_gpu::Snapshot snapshot = simulation.snapshot();
+  for (const auto& contact : snapshot.contacts) of_pairs += contact.body_b >= 0;
   for (std::size_t i = 0; i < snapshot.position.size(); ++i)
     if (snapshot.active[i]) height += snapshot.position[i].z / bulk.active_bodies;
-  std::printf("time %.4f s, %d bodies, %d contacts (%.3f a body), mean height %.5f m, %lld list rebuilds\n",
-              simulation.time(), bulk.active_bodies, bulk.contacts, 2.0 * bulk.contacts / bulk.active_bodies, height,
+  std::printf("time %.4f s, %d bodies, %d contacts (%.3f bodies touch one), mean height %.5f m, %lld list rebuilds\n",
+              simulation.time(), bulk.active_bodies, bulk.contacts, 2.0 * of_pairs / bulk.active_bodies, height,
               static_cast<long long>(quality.list_rebuilds));
   std::printf("largest overlap %.4f of the diameter, fewest steps in a contact %.1f\n", quality.largest_overlap,
               quality.smallest_steps_per_contact);
@@ -104,16 +120,23 @@ void print_state(const dem_gpu::Simulation& simulation) {
 
 void time_scene(const Options& options) {
   const benchmark_scenes::SpeedScene& chosen = benchmark_scenes::speed_scene(options.scene);
-  dem_gpu::Simulation simulation(chosen.make(options.of_scene));
+  dem_gpu::Scene scene = chosen.make(options.of_scene);
+  if (options.is_settled)
+    scene = benchmark_scenes::resumed(scene, benchmark_scenes::settle(chosen, options.of_scene.bodies).settled);
+  dem_gpu::Simulation simulation(scene);
   std::printf("%s: time step %.4g s\n", options.scene.c_str(), simulation.time_step());
-  settle(simulation, options.settle < 0 ? chosen.settling_time : options.settle, options.keep);
+  if (options.is_settled)
+    simulation.advance(kResettlingSteps);
+  else
+    settle(simulation, options.settle < 0 ? chosen.settling_time : options.settle, options.keep);
   const auto steps =
       std::max<std::int64_t>(1, static_cast<std::int64_t>(std::llround(options.window / simulation.time_step())));
   for (int w = 0; w < options.windows; ++w) {
-    const double start = seconds_now();
+    const double start = seconds_now(), cpu_start = cpu_seconds();
     simulation.advance(steps);
-    std::printf("%lld steps, %.4f ms each\n", static_cast<long long>(steps),
-                1e3 * (seconds_now() - start) / static_cast<double>(steps));
+    std::printf("%lld steps, %.4f ms each, %.4f ms of processors\n", static_cast<long long>(steps),
+                1e3 * (seconds_now() - start) / static_cast<double>(steps),
+                1e3 * (cpu_seconds() - cpu_start) / static_cast<double>(steps));
   }
   print_state(simulation);
 }

@@ -49,7 +49,8 @@ struct CaseResult {
 struct BenchCase {
   std::string name;
   std::function<CaseResult()> measure;
-  std::string inputs{};  // hashes of what it measures, so that a case is kept as long as these stay; empty: all inputs
+  std::string inputs{};   // hashes of what it measures, so that a case is kept as long as these stay; empty: all inputs
+  bool is_apart = false;  // takes so long that only --case NAME runs it
 };
 
 /// A plot, with logarithmic axes unless `is_linear`; each curve that names it is drawn in it.

@@ -18,6 +18,8 @@ const std::vector<Bench>& benches() {
        "from clouds and micrographs (--scans DIR), virtual scans and tomograms to shapes: errors against truths",
        plan_digitize_bench},
 #endif
+      {"growth", "time of a particle in a step against bodies, sizes, parts, faces, contacts, triangles and features",
+       plan_growth_bench},
       {"impacts", "sphere impacts of Chung & Ooi (2011), tests 1-8, beside exact and published values",
        plan_impacts_bench},
       {"laws", "contact laws: energy round closed paths, cuts into parts, stiffness exponents", plan_laws_bench},

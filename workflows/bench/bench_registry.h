@@ -26,6 +26,7 @@ BenchPlan plan_bulk_bench(const BenchOptions& options);
 BenchPlan plan_contact_bench(const BenchOptions& options);
 BenchPlan plan_decomposition_bench(const BenchOptions& options);  // where decomposition and shape_pipeline are built
 BenchPlan plan_digitize_bench(const BenchOptions& options);       // likewise
+BenchPlan plan_growth_bench(const BenchOptions& options);
 BenchPlan plan_impacts_bench(const BenchOptions& options);
 BenchPlan plan_laws_bench(const BenchOptions& options);
 BenchPlan plan_levels_bench(const BenchOptions& options);

@@ -367,7 +367,7 @@ CaseResult measure_separated(bool by_face) {
   volume_probe(cube, cube).count_contacts(pairs, cache);
   for (std::size_t i = 0; i < pairs.size(); ++i)
     if ((cache[i] != 0) == by_face) chosen.push_back(pairs[i]);
-  const std::optional<Goal> goal = by_face ? std::optional<Goal>(at_most(60)) : std::nullopt;
+  const std::optional<Goal> goal = by_face ? std::optional<Goal>(at_most(30)) : std::nullopt;
   CaseResult result = time_laws(chosen, goal, goal);
   result.figures.push_back({"share of the separated pairs", static_cast<double>(chosen.size()) / kPairs, "-", {}, ""});
   return result;
@@ -382,7 +382,7 @@ BenchPlan plan_overlap_bench(const BenchOptions&) {
   plan.cases.push_back({"depth-forms", measure_depth_forms});
   // Goals for contacts as a run has them; deep ones are shown beside.
   plan.cases.push_back(
-      {"cost-touching", [] { return time_laws(random_cube_pairs(Placement::shallow), at_most(1000), at_most(2000)); }});
+      {"cost-touching", [] { return time_laws(random_cube_pairs(Placement::shallow), at_most(500), at_most(1000)); }});
   plan.cases.push_back(
       {"cost-against-plain", [] { return measure_against_plain(random_cube_pairs(Placement::shallow)); }});
   plan.cases.push_back({"cost-deep", [] { return time_laws(random_cube_pairs(Placement::deep), {}, {}); }});

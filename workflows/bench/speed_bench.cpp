@@ -20,6 +20,9 @@ BenchPlan plan_speed_bench(const BenchOptions&) {
   add("s3-depth", "s3", Law::depth_potential, {2.5});
   add("s4-volume", "s4", Law::overlap_volume, {2.5});
   add("s4-depth", "s4", Law::depth_potential, {3.5});
+  plan.cases.push_back({"s4-per-second", measure_simulated_second, {}, true});
+  plan.plots = {{"steps", "Time of a step, one thread", "particles [-]", "time of a particle in a step [ns]"}};
+  plan.page = speed_page;
   return plan;
 }
 

@@ -25,6 +25,15 @@ struct Bounds {
   }
 };
 
+bool is_drum(const Scene& scene) {
+  return std::any_of(scene.walls.begin(), scene.walls.end(), [](const dem_gpu::Wall& wall) {
+    return std::holds_alternative<dem_gpu::Cylinder>(wall.geometry);
+  });
+}
+
+/// LAMMPS has cylinders about z alone.
+Vec3 drum_frame(const Vec3& p) { return {p.z, p.x, p.y}; }
+
 /// Of bodies, planes and the shell of a drum.
 Bounds domain_of(const Scene& scene) {
   Bounds bounds;
@@ -62,15 +71,17 @@ void write_shape(std::ostream& out, const dem_gpu::Shape& shape) {
 std::string lammps_particles(const Scene& scene) {
   std::ostringstream out;
   out << std::setprecision(kAllDigits);
-  const auto [low, high] = domain_of(scene);
+  const auto placed = [turns = is_drum(scene)](const Vec3& p) { return turns ? drum_frame(p) : p; };
+  const Bounds domain = domain_of(scene);
+  const Vec3 low = placed(domain.low), high = placed(domain.high);
   out << scene.name << "\n\n" << scene.bodies.size() << " atoms\n1 atom types\n";
   out << low.x << " " << high.x << " xlo xhi\n" << low.y << " " << high.y << " ylo yhi\n";
   out << low.z << " " << high.z << " zlo zhi\n\nAtoms\n\n";
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const dem_gpu::Body& body = scene.bodies[i];
+    const Vec3 place = placed(body.position);
     out << i + 1 << " 1 " << 2 * sphere_of(scene, body).radius * body.scale << " "
-        << scene.materials[body.material].density << " " << body.position.x << " " << body.position.y << " "
-        << body.position.z << "\n";
+        << scene.materials[body.material].density << " " << place.x << " " << place.y << " " << place.z << "\n";
   }
   return out.str();
 }

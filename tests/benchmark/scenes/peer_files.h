@@ -7,7 +7,8 @@
 
 namespace benchmark_scenes {
 
-/// A data file of the scene's spheres for LAMMPS and LIGGGHTS: where they begin, at rest.
+/// A data file of the scene's spheres for LAMMPS and LIGGGHTS: where they begin, at rest. The axis of a
+/// drum becomes z, and down -x.
 /// Throws catalog::InputError if there are other bodies.
 std::string lammps_particles(const dem_gpu::Scene& scene);
 

@@ -47,9 +47,10 @@ dem_gpu::Motion turning(const Drum& drum) {
 
 void add_drum(Scene& scene, const Drum& drum) {
   const double half = drum.length / 2;
+  const dem_gpu::Motion of_ends = drum.ends_turn ? turning(drum) : dem_gpu::Motion{};
   add_wall(scene, "shell", dem_gpu::Cylinder{{0, -half, 0}, {0, 1, 0}, drum.length, drum.radius}, turning(drum));
-  add_wall(scene, "near end", dem_gpu::Plane{{0, -half, 0}, {0, 1, 0}}, turning(drum));
-  add_wall(scene, "far end", dem_gpu::Plane{{0, half, 0}, {0, -1, 0}}, turning(drum));
+  add_wall(scene, "near end", dem_gpu::Plane{{0, -half, 0}, {0, 1, 0}}, of_ends);
+  add_wall(scene, "far end", dem_gpu::Plane{{0, half, 0}, {0, -1, 0}}, of_ends);
 }
 
 void add_lifters(Scene& scene, const Drum& drum, const Lifters& lifters) {

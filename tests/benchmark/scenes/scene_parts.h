@@ -21,10 +21,11 @@ void add_wall(dem_gpu::Scene& scene, const std::string& name, decltype(dem_gpu::
 void add_sides(dem_gpu::Scene& scene, double width);
 void add_floor(dem_gpu::Scene& scene);
 
-/// A shell along y with end plates, its middle at the origin, all turning.
+/// A shell along y with end plates, its middle at the origin.
 struct Drum {
   double radius, length;  // [m]
   double speed;           // about y [rad/s]
+  bool ends_turn = true;  // with the shell
 };
 dem_gpu::Motion turning(const Drum& drum);
 void add_drum(dem_gpu::Scene& scene, const Drum& drum);

@@ -104,7 +104,7 @@ Scene sphere_box(const SceneOptions& options) {
 Scene sphere_drum(const SceneOptions& options) {
   Scene scene = sphere_scene("S1 drum", options);
   const double size = growth(options.bodies, kSpheres, 3);
-  const Drum drum{0.15 * size, 0.3 * size, 30 * 2 * std::numbers::pi / 60};
+  const Drum drum{0.15 * size, 0.3 * size, 30 * 2 * std::numbers::pi / 60, false};
   add_drum(scene, drum);
   add_bodies(scene, in_drum(drum, kSphereDiameter / 2, drum.radius - kSphereDiameter / 2), count_of(options, kSpheres),
              upright);

@@ -27,7 +27,8 @@ struct SceneOptions {
 
 /// S1: spheres of 10 mm in a box of 0.2 x 0.2 m; 10,000 by themselves.
 dem_gpu::Scene sphere_box(const SceneOptions& options);
-/// S1: the same spheres in a drum of radius 0.15 and length 0.3 m at 30 rpm.
+/// S1: the same spheres in a drum of radius 0.15 and length 0.3 m at 30 rpm; its ends stand still, as LIGGGHTS and
+/// LAMMPS have them.
 dem_gpu::Scene sphere_drum(const SceneOptions& options);
 /// S2: cubes of 10 mm and truncated tetrahedra of 1 cm3, half each, in a box of 0.12 x 0.12 m; 1,000 by themselves.
 dem_gpu::Scene mixed_box(const SceneOptions& options);

@@ -8,9 +8,8 @@ namespace workflows {
 /// When in a scene's life it is measured.
 enum class Moment { busy, settled };
 
-/// The scene as it is at that moment. Each scene comes to it once in the life of the process: spheres with their own
-/// law and step; polyhedra with the volume law, softer and with half the steps in a contact, since all that is taken
-/// over is where they lie and how they move. Run it on for kResettlingSteps before it is measured.
+/// The scene as it is at that moment. Each scene settles once in the life of the process
+/// (tests/benchmark/scenes/settling.h). Run it on for kResettlingSteps before it is measured.
 dem_gpu::Scene scene_at(const benchmark_scenes::SpeedScene& speed_scene, Moment moment,
                         const benchmark_scenes::SceneOptions& options);
 

@@ -124,6 +124,14 @@ CaseResult measure_speed(const std::string& scene_name, Law law, const SpeedGoal
     figures.add(kSpeedUp, two_thread_speed_up(simulation, benchmark_scenes::kWindows, kThreadWindowSteps), "-",
                 at_least(kLeastSpeedUp));
   add_energy(figures, speed_scene, options);
+  const bool has_laws = speed_scene.has_polyhedra;
+  result.curves = {{"steps",
+                    !has_laws                     ? "spheres"
+                    : law == Law::depth_potential ? "polyhedra, depth potential"
+                                                  : "polyhedra, overlap volume",
+                    {static_cast<double>(simulation.bulk().active_bodies)},
+                    {1e6 * times.median / simulation.bulk().active_bodies},
+                    {scene_name}}};
   return result;
 }
 
