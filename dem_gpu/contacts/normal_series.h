@@ -32,7 +32,7 @@ struct NormalSeries {
   static constexpr int kOrder = 5;  // of the contact's acceleration
   /// Last term over the elastic kick of a step, at most: what is left out is a few times smaller, and restitution right
   /// to 1e-6 at 20 steps a contact.
-  static constexpr Real kSeriesTolerance = Real(1e-5);
+  static constexpr Real kSeriesTolerance = Real(1e-4);
 
   // Times in steps, lengths in depths at the start.
   Number depth[kOrder + 3];    // coefficients of depth
