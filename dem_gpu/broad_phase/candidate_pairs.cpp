@@ -107,14 +107,8 @@ DeviceVector<ContactKey> candidate_keys(const Model& model, State& state) {
   grid.build(bodies, model.skin);
   const int entries = grid.view().count;
   DeviceVector<int> first(static_cast<std::size_t>(range_count(entries)) + 1, 0);
-  ListPairs list{bodies,
-                 ghost_view(model, state),
-                 view(model.shapes.columns),
-                 view(model.meshes),
-                 grid.view(),
-                 state.walls.device(),
-                 state.walls.count(),
-                 pointer(first),
+  ListPairs list{bodies,      ghost_view(model, state), view(model.shapes.columns), view(model.meshes),
+                 grid.view(), state.walls.device(),     state.walls.count(),        pointer(first),
                  nullptr};
   parallel_for_ranges(0, entries, list);
   DeviceVector<ContactKey> keys(static_cast<std::size_t>(exclusive_scan(first)));
