@@ -83,8 +83,8 @@ TALUS_HD inline int orbit_substeps(Real progress, bool is_first) {
 /// A step along the orbit in sub-steps: with touch or release in it, or a depth that changes much.
 template <class Law>
 TALUS_HD TALUS_ONE_COPY NormalKick<Real> orbit_in_substeps(const NormalStart<Real>& start, Real step, bool is_first) {
-  const NormalAcceleration law{1 / start.depth, start.elastic, start.damping, start.adhesion, Law::kExponent > 1};
-  const Real rate = std::sqrt(Law::kExponent * start.elastic / start.depth);
+  const NormalAcceleration law{start.per_depth, start.elastic, start.damping, start.adhesion, Law::kExponent > 1};
+  const Real rate = std::sqrt(Law::kExponent * start.elastic * start.per_depth);
   NormalOrbit orbit{law, start.depth, start.speed, start.acceleration};
   Real duration = step;
   if (is_first) duration += orbit.back_to_touch(step);
@@ -124,7 +124,7 @@ struct SphereKick {
 TALUS_HD inline SphereKick elastic_kick(const SphereMotion& motion, Real step) {
   constexpr int kElasticSubsteps = 4;
   const NormalStart<Real>& start = motion.start;
-  const NormalAcceleration law{1 / start.depth, start.elastic, 0, 0, false};
+  const NormalAcceleration law{start.per_depth, start.elastic, 0, 0, false};
   if (motion.is_first) {
     NormalOrbit orbit{law, start.depth, motion.mean_speed, start.acceleration};
     const Real touched = orbit.back_to_touch(step);
@@ -184,7 +184,7 @@ struct OrbitDamping {
       by_others = 2 * (impact.predicted_speed - impact.mean_speed) / step + contact_before;
     }
     const SphereMotion motion{
-        {elastic.depth, impact.mean_speed + step / 2 * by_others - owed, by_others + impact.turning,
+        {elastic.depth, 1 / elastic.depth, impact.mean_speed + step / 2 * by_others - owed, by_others + impact.turning,
          (force + elastic.adhesion) / mass, damping, elastic.adhesion / mass},
         impact.mean_speed,
         owed,

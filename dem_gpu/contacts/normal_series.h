@@ -9,6 +9,7 @@ namespace dem_gpu {
 template <class Number>
 struct NormalStart {
   Number depth;         // [m]
+  Number per_depth;     // 1 / depth [1/m]
   Number speed;         // of approach [m/s]
   Number acceleration;  // of approach, by everything but the contact [m/s2]
   Number elastic;       // elastic force / m_eff at this depth [m/s2]
@@ -32,7 +33,7 @@ struct NormalSeries {
   static constexpr int kOrder = 5;  // of the contact's acceleration
   /// Last term over the elastic kick of a step, at most: what is left out is a few times smaller, and restitution right
   /// to 1e-6 at 20 steps a contact.
-  static constexpr Real kSeriesTolerance = Real(1e-5);
+  static constexpr Real kSeriesTolerance = Real(1e-4);
 
   // Times in steps, lengths in depths at the start.
   Number depth[kOrder + 3];    // coefficients of depth
@@ -40,12 +41,12 @@ struct NormalSeries {
 
   TALUS_HD NormalKick<Number> advance(const NormalStart<Number>& start, Real step) {
     constexpr Real kForcePower = Law::kExponent, kDampingPower = (Law::kExponent - 1) / 2;
-    const Number inverse_depth = 1 / start.depth, to_share = step * step * inverse_depth;
+    const Number to_share = step * step * start.per_depth;
     const Number elastic = to_share * start.elastic, damping = step * start.damping;
     const Number others = to_share * (start.acceleration + start.adhesion);
     Number force[kOrder + 1], dashpot[kOrder + 1];
     depth[0] = force[0] = dashpot[0] = Number{} + Real(1);
-    depth[1] = step * start.speed * inverse_depth;
+    depth[1] = step * start.speed * start.per_depth;
     Number kick = Number{}, shift = Number{};
 #pragma GCC unroll 8
     for (int k = 0; k <= kOrder; ++k) {

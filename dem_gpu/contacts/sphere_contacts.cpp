@@ -23,9 +23,9 @@ struct TouchingPairs {
     PairRows rows;
     for (int i = 0; i < kRealLanes; ++i) {
       const int pair = first + i < count ? first + i : count - 1;
-      rows.contact[i] = contact[pair];
-      rows.a[i] = a[pair];
-      rows.b[i] = b[pair];
+      rows.contact.set(i, contact[pair]);
+      rows.a.set(i, a[pair]);
+      rows.b.set(i, b[pair]);
     }
     return rows;
   }
@@ -63,10 +63,11 @@ struct ComputeSpherePairs {
   TALUS_HD void find_touching(int first, int count, TouchingPairs& touching) const {
     PairRows rows;
     for (int i = 0; i < kRealLanes; ++i) {
-      rows.contact[i] = first + (i < count ? i : count - 1);
-      const ContactKey key = scene.contacts.key[rows.contact[i]];
-      rows.a[i] = key_body_a(key);
-      rows.b[i] = key_body_b(key);
+      const int c = first + (i < count ? i : count - 1);
+      const ContactKey key = scene.contacts.key[c];
+      rows.contact.set(i, c);
+      rows.a.set(i, key_body_a(key));
+      rows.b.set(i, key_body_b(key));
     }
     const unsigned touches = touching_bits(scene.bodies, rows);
     for (int i = 0; i < count; ++i) {

@@ -7,15 +7,24 @@
 namespace dem_gpu {
 
 /// Rows of columns, one a lane.
-using RowLanes = int[kRealLanes];
+struct RowLanes {
+  std::int64_t row[kRealLanes];
+  std::int64_t vector[kRealLanes];  // where a Vec3 column has the row, in numbers
+
+  TALUS_HD void set(int i, int to) {
+    row[i] = to;
+    vector[i] = 3 * static_cast<std::int64_t>(to);
+  }
+  TALUS_HD int operator[](int i) const { return static_cast<int>(row[i]); }
+};
 
 TALUS_HD inline RealLanes gather(const Real* column, const RowLanes& rows) {
   RealLanes values;
-  for (int i = 0; i < kRealLanes; ++i) lane(values, i) = column[rows[i]];
+  for (int i = 0; i < kRealLanes; ++i) lane(values, i) = column[rows.row[i]];
   return values;
 }
 TALUS_HD inline void scatter(Real* column, const RowLanes& rows, const RealLanes& values) {
-  for (int i = 0; i < kRealLanes; ++i) column[rows[i]] = lane(values, i);
+  for (int i = 0; i < kRealLanes; ++i) column[rows.row[i]] = lane(values, i);
 }
 
 TALUS_HD inline Vec3 lane(const Vector3<RealLanes>& v, int i) { return {lane(v.x, i), lane(v.y, i), lane(v.z, i)}; }
@@ -24,7 +33,7 @@ TALUS_HD inline Vec3 lane(const Vector3<RealLanes>& v, int i) { return {lane(v.x
 
 /// Rows are loaded whole and turned in registers: a third of the instructions of single loads.
 inline Vector3<RealLanes> gather(const Vec3* column, const RowLanes& rows) {
-  const auto row = [&](int i) { return _mm256_maskz_loadu_pd(0x7, &column[rows[i]].x); };
+  const auto row = [&](int i) { return _mm256_maskz_loadu_pd(0x7, &column->x + rows.vector[i]); };
   const auto rows_of = [&](int i) { return _mm512_insertf64x4(_mm512_castpd256_pd512(row(i)), row(i + 4), 1); };
   const __m512d row_04 = rows_of(0), row_15 = rows_of(1), row_26 = rows_of(2), row_37 = rows_of(3);
   const __m512d xz_01 = _mm512_unpacklo_pd(row_04, row_15), y_01 = _mm512_unpackhi_pd(row_04, row_15);
@@ -38,10 +47,12 @@ inline void scatter(Vec3* column, const RowLanes& rows, const Vector3<RealLanes>
   const __m512d x = (__m512d)values.x, y = (__m512d)values.y, z = (__m512d)values.z;
   const __m512d even = _mm512_unpacklo_pd(x, y), odd = _mm512_unpackhi_pd(x, y);
   const auto store = [&](int i, __m128d xy_even, __m128d xy_odd, __m128d z_both) {
-    _mm_storeu_pd(&column[rows[i]].x, xy_even);
-    _mm_storel_pd(&column[rows[i]].z, z_both);
-    _mm_storeu_pd(&column[rows[i + 1]].x, xy_odd);
-    _mm_storeh_pd(&column[rows[i + 1]].z, z_both);
+    Real* const row_even = &column->x + rows.vector[i];
+    Real* const row_odd = &column->x + rows.vector[i + 1];
+    _mm_storeu_pd(row_even, xy_even);
+    _mm_storel_pd(row_even + 2, z_both);
+    _mm_storeu_pd(row_odd, xy_odd);
+    _mm_storeh_pd(row_odd + 2, z_both);
   };
   store(0, _mm512_castpd512_pd128(even), _mm512_castpd512_pd128(odd), _mm512_castpd512_pd128(z));
   store(2, _mm512_extractf64x2_pd(even, 1), _mm512_extractf64x2_pd(odd, 1), _mm512_extractf64x2_pd(z, 1));
@@ -54,7 +65,7 @@ inline void scatter(Vec3* column, const RowLanes& rows, const Vector3<RealLanes>
 TALUS_HD inline Vector3<RealLanes> gather(const Vec3* column, const RowLanes& rows) {
   Vector3<RealLanes> values;
   for (int i = 0; i < kRealLanes; ++i) {
-    const Vec3& row = column[rows[i]];
+    const Vec3& row = column[rows.row[i]];
     lane(values.x, i) = row.x;
     lane(values.y, i) = row.y;
     lane(values.z, i) = row.z;
@@ -62,7 +73,7 @@ TALUS_HD inline Vector3<RealLanes> gather(const Vec3* column, const RowLanes& ro
   return values;
 }
 TALUS_HD inline void scatter(Vec3* column, const RowLanes& rows, const Vector3<RealLanes>& values) {
-  for (int i = 0; i < kRealLanes; ++i) column[rows[i]] = lane(values, i);
+  for (int i = 0; i < kRealLanes; ++i) column[rows.row[i]] = lane(values, i);
 }
 
 #endif

@@ -77,13 +77,11 @@ std::vector<PairProperties> pair_properties(const Scene& scene) {
       const Real restitution = contact.restitution;
       if (!solved.contains(restitution)) solved[restitution] = damping_ratio(restitution);
       const Material &a = scene.materials[i], &b = scene.materials[j];
-      pairs[i * n + j] = {solved[restitution],
-                          contact.friction_coefficient,
-                          effective_modulus(a, b),
-                          of_tangent * solved[restitution],
-                          tangential_stiffness_ratio(scene, a, b),
-                          contact.rolling_friction,
-                          contact.adhesion};
+      const Real stiffness_ratio = tangential_stiffness_ratio(scene, a, b);
+      pairs[i * n + j] = {solved[restitution],     contact.friction_coefficient,
+                          effective_modulus(a, b), of_tangent * solved[restitution],
+                          stiffness_ratio,         contact.rolling_friction,
+                          contact.adhesion,        of_tangent * solved[restitution] * std::sqrt(stiffness_ratio)};
     }
   return pairs;
 }

@@ -46,8 +46,7 @@ struct RollingFriction {
     const Real coefficient = contact.pair.rolling_friction;
     const RollingSpring<Real> spring = rolling_spring(coefficient, contact.elastic.stiffness, contact.effective_mass);
     const SphereSlip<Real> slip{normal,
-                                contacts.depth[c],
-                                contact.elastic.depth,
+                                contacts.depth[c] / contact.elastic.depth,
                                 contact.time_step * dot(contact.mean_spin, normal),
                                 patch.effective_radius * tangential_part(contact.mean.angular_velocity, normal),
                                 patch.effective_radius * tangential_part(contact.predicted.angular_velocity, normal),

@@ -14,7 +14,7 @@ namespace dem_gpu {
 template <class Number>
 struct SphereSlip {
   Vector3<Number> normal;
-  Number depth_before, depth;       // [m]
+  Number depth_before;              // over the depth now; 0 if new [-]
   Number twist;                     // of the spheres about the normal over the step [rad]
   Vector3<Number> mean, predicted;  // tangential velocity of a over b: moves the spring, is damped [m/s]
   Number limit;                     // of the force [N]
@@ -27,14 +27,14 @@ struct SphereSpringForce {
   Number energy;          // [J]
 };
 
-/// Share of its length that a spring keeps when the normal contact has changed. Springs of a Hertz contact stiffen with
-/// the depth: then they keep their force; as they soften they keep their length. Either way their energy only falls.
-/// Thornton & Yin, Powder Technol. 65 (1991) 153-166; Walton, Mech. Mater. 16 (1993) 239-247.
+/// Square of the share of its length that a spring keeps when the normal contact has changed. Springs of a Hertz
+/// contact stiffen with the depth: then they keep their force; as they soften they keep their length. Either way their
+/// energy only falls. Thornton & Yin, Powder Technol. 65 (1991) 153-166; Walton, Mech. Mater. 16 (1993) 239-247.
+/// `depth_before`: over the depth now.
 template <class Law, class Number>
-TALUS_HD Number length_kept(const Number& depth_before, const Number& depth) {
+TALUS_HD Number length_kept_squared(const Number& depth_before) {
   const Number one = Number{} + Real(1);
-  if constexpr (Law::kExponent > 1)
-    return select((depth_before > Real(0)) & (depth > depth_before), square_root(depth_before / depth), one);
+  if constexpr (Law::kExponent > 1) return select(depth_before > Real(0), smaller(depth_before, one), one);
   return one;
 }
 
@@ -43,26 +43,23 @@ TALUS_HD Number length_kept(const Number& depth_before, const Number& depth) {
 template <class Law, class Number>
 TALUS_HD SphereSpringForce<Number> spring_force(Vector3<Number>& displacement, const SphereSlip<Number>& slip,
                                                 const Number& stiffness, const Number& damping, Real time_step) {
-  TangentialSprings<Number> spring{
-      length_kept<Law>(slip.depth_before, slip.depth) * (displacement + slip.twist * cross(slip.normal, displacement)),
-      stiffness, damping};
+  TangentialSprings<Number> spring{displacement + slip.twist * cross(slip.normal, displacement), stiffness, damping};
   SphereSpringForce<Number> found;
-  found.force = spring.force(slip.normal, slip.mean, slip.predicted, time_step, slip.limit);
+  found.force = spring.force(slip.normal, slip.mean, slip.predicted, time_step, slip.limit,
+                             length_kept_squared<Law>(slip.depth_before));
   found.energy = Real(0.5) * stiffness * norm_squared(spring.displacement);
   displacement = spring.displacement;
   return found;
 }
 
-/// Dashpot of the tangential spring [N s/m].
+/// Dashpot of the tangential spring [N s/m]. `rate`: of its damping, 2 z sqrt(k_t / m) [1/s].
 template <class Number>
-TALUS_HD Number tangential_dashpot(const Number& stiffness, const Number& damping_ratio, const Number& effective_mass,
-                                   Real time_step) {
+TALUS_HD Number tangential_dashpot(const Number& rate, const Number& effective_mass, Real time_step) {
   // The dashpot sees the slip half a step late: from the whole of it a step on, it would swing and add energy. It
   // takes half of it at most.
   constexpr Real kShare = 0.5, kTangentialMass = Real(2) / 7;  // of a solid sphere that can turn, over its mass
   if (!(time_step > 0)) return Number{};
-  return smaller(Real(2) * damping_ratio * square_root(effective_mass * stiffness),
-                 (kShare * kTangentialMass / time_step) * effective_mass);
+  return smaller(rate, Number{} + kShare * kTangentialMass / time_step) * effective_mass;
 }
 
 template <class Number>
@@ -82,7 +79,8 @@ struct SphereFriction {
     const Real stiffness = contact.pair.tangential_stiffness_ratio * contact.elastic.stiffness;
     const SphereSpringForce<Real> spring = spring_force<Law>(
         contacts.tangential_displacement[c], slip(contacts, c, contact), stiffness,
-        tangential_dashpot(stiffness, contact.pair.sphere_damping, contact.effective_mass, contact.time_step),
+        tangential_dashpot(2 * contact.pair.sphere_damping * std::sqrt(stiffness / contact.effective_mass),
+                           contact.effective_mass, contact.time_step),
         contact.time_step);
     FrictionForces friction;
     friction.force = spring.force;
@@ -96,8 +94,7 @@ struct SphereFriction {
   TALUS_HD static SphereSlip<Real> slip(const ContactView& contacts, int c, const FrictionContact& contact) {
     const Vec3& normal = contact.elastic.normal;
     return {normal,
-            contacts.depth[c],
-            contact.elastic.depth,
+            contacts.depth[c] / contact.elastic.depth,
             contact.time_step * dot(contact.mean_spin, normal),
             tangential_part(contact.mean.velocity, normal),
             tangential_part(contact.predicted.velocity, normal),

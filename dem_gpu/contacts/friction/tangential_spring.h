@@ -16,25 +16,27 @@ struct TangentialSprings {
   Number stiffness;              // [N/m]
   Number damping;                // [N s/m]
 
+  /// `kept`: square of the share of its length that the spring keeps from the last step.
   TALUS_HD Vector3<Number> force(const Vector3<Number>& normal, const Vector3<Number>& mean_slip,
-                                 const Vector3<Number>& predicted_slip, Real time_step, const Number& limit) {
+                                 const Vector3<Number>& predicted_slip, Real time_step, const Number& limit,
+                                 const Number& kept = Number{} + Real(1)) {
     const Number one = Number{} + Real(1), length = norm_squared(displacement);
     displacement -= dot(displacement, normal) * normal;
     const Number turned = norm_squared(displacement);
-    displacement = select(turned > Real(0), square_root(length / turned), one) * displacement;
+    displacement = select(turned > Real(0), square_root(kept * length / turned), one) * displacement;
     displacement += (Number{} + time_step) * mean_slip;
-    Vector3<Number> trial = -stiffness * displacement - damping * predicted_slip;
+    const Vector3<Number> drag = damping * predicted_slip;
+    Vector3<Number> trial = -stiffness * displacement - drag;
     const Number size = norm(trial);
     const auto slides = size > limit;
     if (bits_of(slides) == 0) return trial;
     // The spring gives way: what is left of it balances the limit.
     trial = select(slides, limit / size, one) * trial;
-    const Number softness = select(stiffness > Real(0), Real(-1) / stiffness, Number{});
-    Vector3<Number> left = softness * (trial + damping * predicted_slip);
-    const Number load = stiffness * norm(left);
-    left = select(load > limit, limit / load, one) * left;
-    displacement = {select(slides, left.x, displacement.x), select(slides, left.y, displacement.y),
-                    select(slides, left.z, displacement.z)};
+    const Vector3<Number> left = trial + drag;
+    const Number load = norm(left);
+    const Number share = select(stiffness * load > Real(0), -smaller(load, limit) / (stiffness * load), Number{});
+    displacement = {select(slides, share * left.x, displacement.x), select(slides, share * left.y, displacement.y),
+                    select(slides, share * left.z, displacement.z)};
     return trial;
   }
 };
