@@ -148,26 +148,36 @@ TALUS_HD bool visit_surface_inside(const PartView& surface, const FaceSet& wante
   return is_whole;
 }
 
+/// Of the planes of a part's faces those that have any of some faces.
+TALUS_HD inline FaceSet planes_of(const PartView& part, const FaceSet& faces) {
+  FaceSet planes;
+  for (int f = 0; f < part.range.face_count; ++f)
+    if (faces.has(f)) planes.add(part.faces[f].plane);
+  return planes;
+}
+
 /// The faces of a solid that bound its overlap with a surface of which all that is inside it has been visited: those
-/// whose planes cut that, and those with a corner inside the surface's own solid. The other way round, only the faces
-/// that lie inside bound it, so that no other plane need cut.
-TALUS_HD inline FaceSet faces_that_bound(const PartView& solid, const Meeting& met, const PartVertices& vertices,
-                                         PlaneSides& sides) {
+/// whose planes cut that, and those with a corner inside the surface's own body. The other way round, only planes of
+/// the surface's faces that lie inside bound it, so that no other one need cut the solid's: `sides` loses those.
+TALUS_HD inline FaceSet faces_that_bound(const PartView& solid, const PartView& surface, const Meeting& met,
+                                         const PartVertices& vertices, PlaneSides& sides) {
+  const FaceSet cut_by = planes_of(surface, met.faces);
   std::uint64_t outside = 0;
   int kept = 0;
   for (int k = 0; k < sides.plane_count; ++k) {
     outside |= sides.outside[k];
     sides.outside[kept] = sides.outside[k];
     sides.plane[kept] = sides.plane[k];
-    kept += static_cast<int>(met.faces.has(sides.plane[k]));
+    kept += static_cast<int>(cut_by.has(surface.faces[sides.plane[k]].plane));
   }
   sides.plane_count = kept;
   sides.fill_up();
   const std::uint64_t inside = ~outside & vertices.all();
+  FaceSet cutting;
+  if (!met.faces.is_empty()) cutting = planes_of(solid, met.planes);
   FaceSet bounding;
-  if (!met.faces.is_empty()) bounding = met.planes;
   for (int f = 0; f < solid.range.face_count; ++f)
-    if ((solid.faces[f].vertices & inside) != 0) bounding.add(f);
+    if ((solid.faces[f].vertices & inside) != 0 || cutting.has(solid.faces[f].plane)) bounding.add(f);
   return bounding;
 }
 
@@ -264,10 +274,10 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
   bool is_whole;
   if (sides_b.least_inside(vertices_b) <= sides_a.least_inside(vertices_a)) {
     is_whole = add_b(FaceSet::all(), meeting);
-    is_whole &= add_a(is_flush ? FaceSet::all() : faces_that_bound(a, meeting, vertices_a, sides_a), meeting);
+    is_whole &= add_a(is_flush ? FaceSet::all() : faces_that_bound(a, b, meeting, vertices_a, sides_a), meeting);
   } else {
     is_whole = add_a(FaceSet::all(), meeting);
-    is_whole &= add_b(is_flush ? FaceSet::all() : faces_that_bound(b, meeting, vertices_b, sides_b), meeting);
+    is_whole &= add_b(is_flush ? FaceSet::all() : faces_that_bound(b, a, meeting, vertices_b, sides_b), meeting);
   }
   if constexpr (Integrals::kNeedsDepthPlanes)
     is_whole &= !integrals.is_truncated;

@@ -53,6 +53,29 @@ void append_vertex_blocks(HostShapeColumns& columns, PartRange& part) {
   }
 }
 
+/// Faces in one plane have its first face's number. The tolerance is far above rounding, far below any real step.
+void find_shared_planes(HostShapeColumns& columns, const PartRange& part) {
+  constexpr Real kTolerance = local_tolerance(1e-9, 1e-5);
+  const auto lies_in = [&](const FaceCorners& face, const HalfSpace& plane) {
+    for (int c = face.first; c < face.first + face.count; ++c) {
+      const int v = part.first_vertex + columns.corners[static_cast<std::size_t>(c)];
+      if (std::abs(depth_below<Real>(plane, columns.vertices[static_cast<std::size_t>(v)])) > kTolerance * part.radius)
+        return false;
+    }
+    return true;
+  };
+  for (int f = 0; f < part.face_count; ++f) {
+    const auto row = [&](int face) { return static_cast<std::size_t>(part.first_face + face); };
+    columns.faces[row(f)].plane = f;
+    const HalfSpace own = columns.planes[row(f)];
+    for (int g = f - 1; g >= 0; --g) {
+      const HalfSpace other = columns.planes[row(g)];
+      if (dot(own.normal, other.normal) > 0 && lies_in(columns.faces[row(f)], other))
+        columns.faces[row(f)].plane = columns.faces[row(g)].plane;
+    }
+  }
+}
+
 PartRange append_part(HostShapeColumns& columns, const ConvexPart& part) {
   PartRange range;
   range.first_vertex = static_cast<int>(columns.vertices.size());
@@ -83,6 +106,7 @@ PartRange append_part(HostShapeColumns& columns, const ConvexPart& part) {
       columns.faces.push_back(corners);
       if (kind == FaceKind::outer) ++range.outer_face_count;
     }
+  find_shared_planes(columns, range);
   return range;
 }
 

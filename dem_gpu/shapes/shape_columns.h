@@ -53,6 +53,7 @@ struct FaceCorners {
   std::uint64_t vertices = 0;  // the same corners as a set: bit v for vertex v of the part
   int first_piece = 0;         // into face_pieces
   int piece_count = 0;
+  int plane = 0;  // first face of the part in the same plane: a flat side may be several faces
 };
 static_assert(kMaxPartVertices <= 64);
 
