@@ -79,7 +79,8 @@ double fewest_steps(Law law) {
 /// Flat overlap at which both bounds hold: overlaps go with a power of it, taken from two softer runs, which are quick.
 double softest(Law law, double steps) {
   constexpr double kSoft = 0.04, kHarder = 0.01, kTime = 0.07;  // half a lifter passage
-  const Trial soft = run_mill(softness(law, kSoft, steps), kTime), harder = run_mill(softness(law, kHarder, steps), kTime);
+  const Trial soft = run_mill(softness(law, kSoft, steps), kTime),
+              harder = run_mill(softness(law, kHarder, steps), kTime);
   const auto reach = [&](double at_soft, double at_harder, double bound) {
     const double power = std::max(0.1, std::log(at_soft / at_harder) / std::log(kSoft / kHarder));
     return kHarder * std::pow(bound / at_harder, 1 / power);
