@@ -137,9 +137,10 @@ TEST(PeerFiles, NameEachBodyOnce) {
   SceneOptions options;
   options.bodies = 40;
   EXPECT_EQ(number_lines(particle_table(mixed_box(options))), 40);
+  options.bodies = 500;
   const Scene drum = sphere_drum(options);
   const std::string text = lammps_particles(drum);
-  EXPECT_NE(text.find("40 atoms\n"), std::string::npos);
+  EXPECT_NE(text.find("500 atoms\n"), std::string::npos);
   // The axis, y here, is z there; down, -z here, is -x there.
   std::istringstream first(text.substr(text.find("Atoms\n\n") + 7));
   int id = 0, type = 0;
