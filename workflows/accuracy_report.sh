@@ -5,7 +5,7 @@
 #   workflows/accuracy_report.sh BUILD [BUILD_MIXED]
 # BUILD, BUILD_MIXED: build folders of the double and the mixed precision engine with their tests. BENCHES and
 # MIXED_BENCHES name the benches to run, or one case of one (bulk:drum-depth). Default: all that need neither catalogue
-# nor scans; in mixed precision those of polyhedra, since spheres are in double in either, and not the settling grains,
+# nor scans, those of speed apart; in mixed precision those of polyhedra, since spheres are in double in either, and not the settling grains,
 # whose reference alone takes 20 minutes.
 set -eu
 
@@ -16,7 +16,7 @@ plots=docs/results/plots
 for folder in "$build" ${mixed:+"$mixed"}; do
   [ -x "$folder/bin/talus" ] || { echo "accuracy_report: no $folder/bin/talus; build it first" >&2; exit 2; }
 done
-: "${BENCHES:=$("$build/bin/talus" bench --list | sed -n '/^levels:/d; /^parts:/d; /^decomposition:/d; s/^\([a-z_]*\):.*/\1/p')}"
+: "${BENCHES:=$("$build/bin/talus" bench --list | sed -n '/^levels:/d; /^parts:/d; /^decomposition:/d; /^speed:/d; /^growth:/d; s/^\([a-z_]*\):.*/\1/p')}"
 : "${MIXED_BENCHES:=overlap contact laws bulk:throw-depth bulk:throw-volume bulk:drum-depth bulk:drum-volume pile}"
 
 work=$(mktemp -d)

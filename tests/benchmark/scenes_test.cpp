@@ -3,13 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <sstream>
 
 #include "catalog/input_error.h"
 #include "dem_gpu/simulation.h"
+#include "tests/benchmark/scenes/peer_files.h"
 #include "tests/benchmark/scenes/placing.h"
+#include "tests/benchmark/scenes/resumed_scene.h"
 #include "tests/benchmark/scenes/solids.h"
 #include "tests/benchmark/scenes/speed_scenes.h"
 
@@ -101,6 +105,58 @@ TEST(SpeedScene, HasOneTimeStepWithBothLaws) {
 TEST(SpeedScene, OfAnUnknownNameIsRefused) {
   EXPECT_THROW(speed_scene("s1-bax"), catalog::UsageError);
   EXPECT_THROW(rough_rock(5, 1, 1), catalog::InputError);
+}
+
+TEST(ResumedScene, GoesOnFromASnapshot) {
+  SceneOptions options;
+  options.bodies = 60;
+  const Scene scene = outlet_box(options);
+  dem_gpu::Simulation simulation(scene);
+  simulation.advance(100);
+  dem_gpu::Snapshot snapshot = simulation.snapshot();
+  snapshot.active[7] = 0;
+  const Scene next = resumed(scene, snapshot);
+  ASSERT_EQ(next.bodies.size(), 59u);
+  EXPECT_EQ(next.bodies[6].position, snapshot.position[6]);
+  EXPECT_EQ(next.bodies[7].position, snapshot.position[8]);
+  EXPECT_EQ(next.bodies[7].velocity, snapshot.velocity[8]);
+  EXPECT_EQ(next.bodies[7].shape, scene.bodies[8].shape);
+  EXPECT_DOUBLE_EQ(next.walls.back().removed_at.value(), kOutletOpens - snapshot.time);
+  EXPECT_THROW(resumed(next, snapshot), catalog::InputError);
+}
+
+/// Lines of a text that begin with a number.
+int number_lines(const std::string& text) {
+  int count = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) count += std::isdigit(static_cast<unsigned char>(line[0]));
+  return count;
+}
+
+TEST(PeerFiles, NameEachBodyOnce) {
+  SceneOptions options;
+  options.bodies = 40;
+  EXPECT_EQ(number_lines(particle_table(mixed_box(options))), 40);
+  options.bodies = 500;
+  const Scene drum = sphere_drum(options);
+  const std::string text = lammps_particles(drum);
+  EXPECT_NE(text.find("500 atoms\n"), std::string::npos);
+  // The axis, y here, is z there; down, -z here, is -x there.
+  std::istringstream first(text.substr(text.find("Atoms\n\n") + 7));
+  int id = 0, type = 0;
+  double diameter = 0, density = 0;
+  Vec3 place;
+  first >> id >> type >> diameter >> density >> place.x >> place.y >> place.z;
+  EXPECT_EQ(id, 1);
+  EXPECT_EQ(type, 1);
+  EXPECT_EQ(diameter, 0.01);
+  EXPECT_EQ(density, 2500);
+  EXPECT_EQ(place, (Vec3{drum.bodies[0].position.z, drum.bodies[0].position.x, drum.bodies[0].position.y}));
+}
+
+TEST(PeerFiles, RefuseWhatThePeersDoNotHave) {
+  EXPECT_THROW(lammps_particles(mixed_box({})), catalog::InputError);
+  EXPECT_THROW(particle_table(outlet_box({})), catalog::InputError);
 }
 
 /// Corners of a face, to a millionth of the body.

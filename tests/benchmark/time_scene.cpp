@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "dem_gpu/simulation.h"
 #include "tests/benchmark/scenes/resumed_scene.h"
@@ -100,6 +101,18 @@ void settle(dem_gpu::Simulation& simulation, double time, const std::filesystem:
   simulation.write_checkpoint(keep);
 }
 
+/// Root mean square over the bodies that are there.
+double root_mean_square(const dem_gpu::Snapshot& snapshot, const std::vector<dem_gpu::Vec3>& vectors) {
+  double sum = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < vectors.size(); ++i)
+    if (snapshot.active[i]) {
+      sum += norm_squared(vectors[i]);
+      ++count;
+    }
+  return std::sqrt(sum / std::max(count, 1));
+}
+
 void print_state(const dem_gpu::Simulation& simulation) {
   const dem_gpu::BulkState bulk = simulation.bulk();
   const dem_gpu::RunQuality quality = simulation.quality();
@@ -112,6 +125,8 @@ void print_state(const dem_gpu::Simulation& simulation) {
   std::printf("time %.4f s, %d bodies, %d contacts (%.3f bodies touch one), mean height %.5f m, %lld list rebuilds\n",
               simulation.time(), bulk.active_bodies, bulk.contacts, 2.0 * of_pairs / bulk.active_bodies, height,
               static_cast<long long>(quality.list_rebuilds));
+  std::printf("root mean square speed %.3g m/s, spin %.3g rad/s\n", root_mean_square(snapshot, snapshot.velocity),
+              root_mean_square(snapshot, snapshot.angular_velocity));
   std::printf("largest overlap %.4f of the diameter, fewest steps in a contact %.1f\n", quality.largest_overlap,
               quality.smallest_steps_per_contact);
   if (const dem_gpu::EnergyLedger ledger = simulation.ledger(); ledger.throughput > 0)

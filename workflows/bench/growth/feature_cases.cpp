@@ -34,7 +34,8 @@ void add_cube_above(Scene& scene) {
 }
 
 void make_two_sizes(Scene& scene) {
-  for (std::size_t i = 0; i < scene.bodies.size(); i += 2) scene.bodies[i].scale = 0.9;
+  for (std::size_t i = 0; i < scene.bodies.size(); i += 2) scene.bodies[i].scale = 0.98;
+  for (std::size_t i = 1; i < scene.bodies.size(); i += 2) scene.bodies[i].scale = 1.02;
 }
 
 std::vector<Feature> features() {
