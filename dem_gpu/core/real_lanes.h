@@ -6,18 +6,22 @@
 
 #include "dem_gpu/core/host_device.h"
 #include "dem_gpu/core/real.h"
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && !defined(__CUDACC__)
+#if defined(__AVX__) && !defined(__CUDACC__)
 // GCC 12 takes the undefined registers of its own header for a mistake (GCC bug 105593).
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wuninitialized"
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #include <immintrin.h>
 #pragma GCC diagnostic pop
+#endif
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__) && !defined(__CUDACC__)
 #define TALUS_AVX512 1
+#elif defined(__AVX__) && !defined(__CUDACC__)
+#define TALUS_AVX 1
 #endif
 
-// Several contacts of spheres worked on together: one vector register on the CPU (the compiler splits it where
-// registers are shorter), a single number on the GPU, where the threads are the lanes. What is written for a template
+// Several contacts of spheres worked on together: one vector register on the CPU, a single number on the GPU, where the
+// threads are the lanes. What is written for a template
 // parameter Number takes a Real or RealLanes; every lane is rounded alike, wherever in the register it lies.
 
 namespace dem_gpu {
@@ -40,7 +44,13 @@ TALUS_HD inline RealLanes load_lanes_at(const Real* values) { return *values; }
 
 #else
 
+#if defined(TALUS_AVX512)
 inline constexpr int kRealLanes = 8;
+#elif defined(TALUS_AVX)
+inline constexpr int kRealLanes = 4;
+#else
+inline constexpr int kRealLanes = 2;
+#endif
 using RealLanes = Real __attribute__((vector_size(kRealLanes * sizeof(Real))));
 using LaneMask = decltype(RealLanes{} < RealLanes{});
 
@@ -61,6 +71,8 @@ inline RealLanes load_lanes_at(const Real* values) {
 inline RealLanes square_root(const RealLanes& a) {
 #if defined(TALUS_AVX512)
   return (RealLanes)_mm512_sqrt_pd((__m512d)a);
+#elif defined(TALUS_AVX)
+  return (RealLanes)_mm256_sqrt_pd((__m256d)a);
 #else
   RealLanes roots;
   for (int i = 0; i < kRealLanes; ++i) roots[i] = std::sqrt(a[i]);
@@ -72,6 +84,8 @@ inline RealLanes square_root(const RealLanes& a) {
 inline unsigned bits_of(const LaneMask& mask) {
 #if defined(TALUS_AVX512)
   return _mm512_movepi64_mask((__m512i)mask);
+#elif defined(TALUS_AVX)
+  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask));
 #else
   unsigned bits = 0;
   for (int i = 0; i < kRealLanes; ++i) bits |= (mask[i] != 0 ? 1u : 0u) << i;

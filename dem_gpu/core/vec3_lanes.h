@@ -60,6 +60,33 @@ inline void scatter(Vec3* column, const RowLanes& rows, const Vector3<RealLanes>
   store(6, _mm512_extractf64x2_pd(even, 3), _mm512_extractf64x2_pd(odd, 3), _mm512_extractf64x2_pd(z, 3));
 }
 
+#elif defined(TALUS_AVX)
+
+inline Vector3<RealLanes> gather(const Vec3* column, const RowLanes& rows) {
+  const __m256i three = _mm256_setr_epi64x(-1, -1, -1, 0);
+  const auto row = [&](int i) { return _mm256_maskload_pd(&column->x + rows.vector[i], three); };
+  const __m256d row_0 = row(0), row_1 = row(1), row_2 = row(2), row_3 = row(3);
+  const __m256d xz_01 = _mm256_unpacklo_pd(row_0, row_1), y_01 = _mm256_unpackhi_pd(row_0, row_1);
+  const __m256d xz_23 = _mm256_unpacklo_pd(row_2, row_3), y_23 = _mm256_unpackhi_pd(row_2, row_3);
+  return {(RealLanes)_mm256_permute2f128_pd(xz_01, xz_23, 0x20), (RealLanes)_mm256_permute2f128_pd(y_01, y_23, 0x20),
+          (RealLanes)_mm256_permute2f128_pd(xz_01, xz_23, 0x31)};
+}
+
+inline void scatter(Vec3* column, const RowLanes& rows, const Vector3<RealLanes>& values) {
+  const __m256d x = (__m256d)values.x, y = (__m256d)values.y, z = (__m256d)values.z;
+  const __m256d even = _mm256_unpacklo_pd(x, y), odd = _mm256_unpackhi_pd(x, y);
+  const auto store = [&](int i, __m128d xy_even, __m128d xy_odd, __m128d z_both) {
+    Real* const row_even = &column->x + rows.vector[i];
+    Real* const row_odd = &column->x + rows.vector[i + 1];
+    _mm_storeu_pd(row_even, xy_even);
+    _mm_storel_pd(row_even + 2, z_both);
+    _mm_storeu_pd(row_odd, xy_odd);
+    _mm_storeh_pd(row_odd + 2, z_both);
+  };
+  store(0, _mm256_castpd256_pd128(even), _mm256_castpd256_pd128(odd), _mm256_castpd256_pd128(z));
+  store(2, _mm256_extractf128_pd(even, 1), _mm256_extractf128_pd(odd, 1), _mm256_extractf128_pd(z, 1));
+}
+
 #else
 
 TALUS_HD inline Vector3<RealLanes> gather(const Vec3* column, const RowLanes& rows) {
