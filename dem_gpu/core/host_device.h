@@ -12,8 +12,14 @@
 /// sums, and round differently.
 #define TALUS_ONE_COPY __attribute__((noinline))
 
-/// For the small functions of contact geometry: a call would pass their vectors through memory.
+/// For the small functions of contact geometry. On the CPU a call would pass their vectors through memory. On the GPU
+/// their lanes are loops, many times as long once unrolled: called, kernels stay small (inlined, one took nvcc
+/// minutes).
+#if defined(__CUDACC__)
+#define TALUS_INLINE inline __attribute__((noinline))
+#else
 #define TALUS_INLINE inline __attribute__((always_inline))
+#endif
 
 /// All that a function calls becomes part of it: wide vectors that go through memory from call to call cost more than
 /// the work on them.
