@@ -28,3 +28,10 @@
 #else
 #define TALUS_ALL_INLINED __attribute__((flatten))
 #endif
+
+/// The loop that follows becomes straight code, so that what it indexes can stay in registers.
+#if defined(__CUDACC__)
+#define TALUS_UNROLL _Pragma("unroll")
+#else
+#define TALUS_UNROLL _Pragma("GCC unroll 8")
+#endif

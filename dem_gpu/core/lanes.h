@@ -122,15 +122,10 @@ TALUS_HD inline Lanes next_lane(const Lanes& a) {
   return Lanes::each([&](int i) { return a[(i + 1) % kLanes]; });
 }
 /// Bit i where a[i] > b[i].
-TALUS_HD inline LaneSet lanes_above(const Lanes& a, const Lanes& b) {
+template <class Number>
+TALUS_HD LaneSet lanes_above(const LaneArray<Number>& a, const LaneArray<Number>& b) {
   LaneSet set = 0;
 #pragma unroll
-  for (int i = 0; i < kLanes; ++i) set |= static_cast<LaneSet>(a[i] > b[i]) << i;
-  return set;
-}
-TALUS_HD inline LaneSet lanes_above(const WideLanes& a,
-                                    const WideLanes& b) requires(sizeof(LocalReal) != sizeof(Real)) {
-  LaneSet set = 0;
   for (int i = 0; i < kLanes; ++i) set |= static_cast<LaneSet>(a[i] > b[i]) << i;
   return set;
 }
