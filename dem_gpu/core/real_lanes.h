@@ -6,18 +6,14 @@
 
 #include "dem_gpu/core/host_device.h"
 #include "dem_gpu/core/real.h"
-#if defined(__AVX__) && !defined(__CUDACC__)
-// GCC 12 takes the undefined registers of its own header for a mistake (GCC bug 105593).
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wuninitialized"
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#include <immintrin.h>
-#pragma GCC diagnostic pop
-#endif
-#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__) && !defined(__CUDACC__)
+// Built-in functions of the compiler, not its header: the scene's laws are written for Numbers, and what includes a
+// scene shall not get thousands of names with it.
+#if defined(__GNUC__) && !defined(__clang__) && !defined(__CUDACC__)
+#if defined(__AVX512F__) && defined(__AVX512DQ__) && defined(__AVX512VL__)
 #define TALUS_AVX512 1
-#elif defined(__AVX__) && !defined(__CUDACC__)
+#elif defined(__AVX__)
 #define TALUS_AVX 1
+#endif
 #endif
 
 // Several contacts of spheres worked on together: one vector register on the CPU, a single number on the GPU, where the
@@ -53,6 +49,7 @@ inline constexpr int kRealLanes = 2;
 #endif
 using RealLanes = Real __attribute__((vector_size(kRealLanes * sizeof(Real))));
 using LaneMask = decltype(RealLanes{} < RealLanes{});
+using LongLanes = long long __attribute__((vector_size(kRealLanes * sizeof(long long))));
 
 inline RealLanes select(const LaneMask& mask, const RealLanes& first, const RealLanes& second) {
   return mask ? first : second;
@@ -70,9 +67,10 @@ inline RealLanes load_lanes_at(const Real* values) {
 
 inline RealLanes square_root(const RealLanes& a) {
 #if defined(TALUS_AVX512)
-  return (RealLanes)_mm512_sqrt_pd((__m512d)a);
+  constexpr int kCurrentRounding = 4;
+  return __builtin_ia32_sqrtpd512_mask(a, a, static_cast<char>(-1), kCurrentRounding);
 #elif defined(TALUS_AVX)
-  return (RealLanes)_mm256_sqrt_pd((__m256d)a);
+  return __builtin_ia32_sqrtpd256(a);
 #else
   RealLanes roots;
   for (int i = 0; i < kRealLanes; ++i) roots[i] = std::sqrt(a[i]);
@@ -83,9 +81,9 @@ inline RealLanes square_root(const RealLanes& a) {
 /// Bit i for lane i where the mask is set.
 inline unsigned bits_of(const LaneMask& mask) {
 #if defined(TALUS_AVX512)
-  return _mm512_movepi64_mask((__m512i)mask);
+  return static_cast<unsigned char>(__builtin_ia32_cvtq2mask512((LongLanes)mask));
 #elif defined(TALUS_AVX)
-  return static_cast<unsigned>(_mm256_movemask_pd((__m256d)mask));
+  return static_cast<unsigned>(__builtin_ia32_movmskpd256((RealLanes)mask));
 #else
   unsigned bits = 0;
   for (int i = 0; i < kRealLanes; ++i) bits |= (mask[i] != 0 ? 1u : 0u) << i;
