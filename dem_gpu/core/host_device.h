@@ -21,6 +21,14 @@
 #define TALUS_INLINE inline __attribute__((always_inline))
 #endif
 
+/// On the GPU a call of its own, so that kernels do not hold several copies of it: the large functions of contact
+/// geometry. On the CPU the compiler chooses.
+#if defined(__CUDACC__)
+#define TALUS_DEVICE_CALL __attribute__((noinline))
+#else
+#define TALUS_DEVICE_CALL
+#endif
+
 /// All that a function calls becomes part of it: wide vectors that go through memory from call to call cost more than
 /// the work on them.
 #if defined(__CUDACC__)

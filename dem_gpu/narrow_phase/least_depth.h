@@ -91,7 +91,7 @@ class Contenders {
 /// visitor(piece, plane) for the pieces on which each contender is least, of those still standing. `contending`: the
 /// plane of each.
 template <class Visitor>
-TALUS_HD void visit_cells(const Polygon& polygon, const LocalHalfSpace* planes, const std::uint8_t* contending,
+TALUS_HD TALUS_DEVICE_CALL void visit_cells(const Polygon& polygon, const LocalHalfSpace* planes, const std::uint8_t* contending,
                           Contenders& contenders, Visitor&& visitor) {
   contenders.compare();
   for (std::uint64_t standing = contenders.standing(); standing != 0; standing &= standing - 1) {
@@ -108,7 +108,7 @@ static_assert(kMostPlanesOnPolygon <= 256);
 
 /// The same as visit_least_depth for any number of planes, each compared with each.
 template <class Visitor>
-TALUS_HD void visit_every_cell(const Polygon& polygon, const LocalHalfSpace* planes, int plane_count,
+TALUS_HD TALUS_DEVICE_CALL void visit_every_cell(const Polygon& polygon, const LocalHalfSpace* planes, int plane_count,
                                Visitor&& visitor) {
   for (int k = 0; k < plane_count; ++k) {
     ShrinkingPolygon cell{polygon};
@@ -121,7 +121,7 @@ TALUS_HD void visit_every_cell(const Polygon& polygon, const LocalHalfSpace* pla
 /// Cuts a polygon into the pieces on which each of `planes` is the one it lies least deep below: visitor(piece, plane).
 /// One piece where one plane is least at all corners. The lower index owns a tie.
 template <class Visitor>
-TALUS_HD void visit_least_depth(const Polygon& polygon, const LocalHalfSpace* planes, int plane_count,
+TALUS_HD TALUS_DEVICE_CALL void visit_least_depth(const Polygon& polygon, const LocalHalfSpace* planes, int plane_count,
                                 Visitor&& visitor) {
   if (plane_count == 1) {
     visitor(polygon, planes[0]);
