@@ -19,6 +19,9 @@ if(TARGET talus-simulate)
 endif()
 list(TRANSFORM test_programs REPLACE "(.+)" "$<TARGET_FILE:\\1>" OUTPUT_VARIABLE test_files)
 list(TRANSFORM programs REPLACE "(.+)" "$<TARGET_FILE:\\1>" OUTPUT_VARIABLE program_files)
+list(TRANSFORM test_programs PREPEND ${check_folder}/tests/ OUTPUT_VARIABLE copied_files)
+list(TRANSFORM programs PREPEND ${check_folder}/bin/ OUTPUT_VARIABLE copied_programs)
+list(APPEND copied_files ${copied_programs})
 if(TALUS_SHARED_ENGINE)
   set(copy_library COMMAND ${CMAKE_COMMAND} -E copy $<TARGET_FILE:dem_engine> ${check_folder}/lib)
 endif()
@@ -28,7 +31,7 @@ add_custom_target(gpu_check_folder
   COMMAND ${CMAKE_COMMAND} -E copy ${test_files} ${check_folder}/tests
   COMMAND ${CMAKE_COMMAND} -E copy ${program_files} ${check_folder}/bin
   ${copy_library}
-  COMMAND strip ${check_folder}/tests/* ${check_folder}/bin/*
+  COMMAND strip ${copied_files}
   COMMAND ${CMAKE_COMMAND} -E copy ${CMAKE_BINARY_DIR}/gpu_check_tests.txt ${check_folder}/tests.txt
   COMMAND ${CMAKE_COMMAND} -E copy ${CMAKE_CURRENT_LIST_DIR}/benches.txt ${CMAKE_CURRENT_LIST_DIR}/run.sh ${check_folder}
   COMMAND ${CMAKE_COMMAND} -E copy_directory ${TALUS_REFERENCE} ${check_folder}/reference
