@@ -91,8 +91,8 @@ class Contenders {
 /// visitor(piece, plane) for the pieces on which each contender is least, of those still standing. `contending`: the
 /// plane of each.
 template <class Visitor>
-TALUS_HD TALUS_DEVICE_CALL void visit_cells(const Polygon& polygon, const LocalHalfSpace* planes, const std::uint8_t* contending,
-                          Contenders& contenders, Visitor&& visitor) {
+TALUS_HD TALUS_DEVICE_CALL void visit_cells(const Polygon& polygon, const LocalHalfSpace* planes,
+                                            const std::uint8_t* contending, Contenders& contenders, Visitor&& visitor) {
   contenders.compare();
   for (std::uint64_t standing = contenders.standing(); standing != 0; standing &= standing - 1) {
     const int k = lowest_bit(standing);
@@ -109,7 +109,7 @@ static_assert(kMostPlanesOnPolygon <= 256);
 /// The same as visit_least_depth for any number of planes, each compared with each.
 template <class Visitor>
 TALUS_HD TALUS_DEVICE_CALL void visit_every_cell(const Polygon& polygon, const LocalHalfSpace* planes, int plane_count,
-                               Visitor&& visitor) {
+                                                 Visitor&& visitor) {
   for (int k = 0; k < plane_count; ++k) {
     ShrinkingPolygon cell{polygon};
     for (int m = 0; m < plane_count && !cell.is_empty; ++m)
@@ -122,7 +122,7 @@ TALUS_HD TALUS_DEVICE_CALL void visit_every_cell(const Polygon& polygon, const L
 /// One piece where one plane is least at all corners. The lower index owns a tie.
 template <class Visitor>
 TALUS_HD TALUS_DEVICE_CALL void visit_least_depth(const Polygon& polygon, const LocalHalfSpace* planes, int plane_count,
-                                Visitor&& visitor) {
+                                                  Visitor&& visitor) {
   if (plane_count == 1) {
     visitor(polygon, planes[0]);
     return;

@@ -91,7 +91,8 @@ TALUS_HD inline bool is_within(const DepthField& field, int term, const LocalBal
 /// its deepest. `ball` bounds the points and settles most at the cost of one depth. The whole field if too much is
 /// near.
 template <class Points>
-TALUS_HD TALUS_DEVICE_CALL DepthField near_field(const DepthField& field, const Points& points, const LocalBall& ball, NearField& near) {
+TALUS_HD TALUS_DEVICE_CALL DepthField near_field(const DepthField& field, const Points& points, const LocalBall& ball,
+                                                 NearField& near) {
   ScratchArray<LocalReal, NearField::kMostPlanes> plane_shallowest;
   ScratchArray<LocalReal, NearField::kMostTerms> term_shallowest;
   LocalReal bound = greatest_possible(ball, field);

@@ -117,9 +117,10 @@ TALUS_HD TALUS_INLINE FacesToCut faces_to_cut(const PartView& surface, int first
 /// independent polygon, no topology is built. visitor(polygon in the solid's frame, face index). Returns false if a
 /// polygon was truncated.
 template <class Visitor>
-TALUS_HD TALUS_DEVICE_CALL bool visit_surface_inside(const PartView& surface, const FaceSet& wanted, const PartView& solid,
-                                   const PartVertices& vertices, const PlaneSides& sides, const CoplanarRule& coplanar,
-                                   Meeting& meeting, Visitor&& visitor) {
+TALUS_HD TALUS_DEVICE_CALL bool visit_surface_inside(const PartView& surface, const FaceSet& wanted,
+                                                     const PartView& solid, const PartVertices& vertices,
+                                                     const PlaneSides& sides, const CoplanarRule& coplanar,
+                                                     Meeting& meeting, Visitor&& visitor) {
   bool is_whole = true;
   meeting = {};
   for (int first = 0; first < surface.range.face_count; first += kLanes) {
@@ -159,8 +160,9 @@ TALUS_HD inline FaceSet planes_of(const PartView& part, const FaceSet& faces) {
 /// The faces of a solid that bound its overlap with a surface of which all that is inside it has been visited: those
 /// whose planes cut that, and those with a corner inside the surface's own body. The other way round, only planes of
 /// the surface's faces that lie inside bound it, so that no other one need cut the solid's: `sides` loses those.
-TALUS_HD TALUS_DEVICE_CALL inline FaceSet faces_that_bound(const PartView& solid, const PartView& surface, const Meeting& met,
-                                         const PartVertices& vertices, PlaneSides& sides) {
+TALUS_HD TALUS_DEVICE_CALL inline FaceSet faces_that_bound(const PartView& solid, const PartView& surface,
+                                                           const Meeting& met, const PartVertices& vertices,
+                                                           PlaneSides& sides) {
   const FaceSet cut_by = planes_of(surface, met.faces);
   std::uint64_t outside = 0;
   int kept = 0;
@@ -188,7 +190,8 @@ inline constexpr int kFewPlanes = 12;
 /// what of its depth field matters on them. `vertices`: the surface's, in the solid's frame. False if a polygon was
 /// truncated.
 template <class Visit, class Add>
-TALUS_HD TALUS_DEVICE_CALL bool integrate_near_depth(const PartView& solid, const PartVertices& vertices, const Visit& visit, Add&& add) {
+TALUS_HD TALUS_DEVICE_CALL bool integrate_near_depth(const PartView& solid, const PartVertices& vertices,
+                                                     const Visit& visit, Add&& add) {
   if (solid.depth.term_count == 0 && solid.depth.plane_count <= kFewPlanes)
     return visit([&](Polygon& piece, int face) { add(piece, face, solid); });
   SurfacePieces pieces;

@@ -51,7 +51,8 @@ TALUS_HD inline WideLaneVec3 moved(const FrameChange& change, const WideLaneVec3
           row(r.column_x.z, r.column_y.z, r.column_z.z, change.translation.z)};
 }
 
-TALUS_HD TALUS_DEVICE_CALL inline void transform_vertices(const PartView& part, const FrameChange& change, PartVertices& vertices) {
+TALUS_HD TALUS_DEVICE_CALL inline void transform_vertices(const PartView& part, const FrameChange& change,
+                                                          PartVertices& vertices) {
   vertices.count = part.range.vertex_count;
   for (int i = 0; i < vertices.block_count(); ++i) {
     const LaneVec3 points = rounded(moved(change, widened(load_points(part.vertex_blocks[i]))));

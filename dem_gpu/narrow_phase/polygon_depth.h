@@ -51,7 +51,8 @@ struct PolygonPatchDepthOf : PolygonDepthOf<Profile> {
 /// Adds a polygon on which the depth is linear: closed form over the triangles of its fan, a lane each. (Lanes beyond
 /// the last triangle have two corners in one place, so no area.)
 template <class Sum>
-TALUS_HD TALUS_DEVICE_CALL void add_linear_depth(const Polygon& polygon, const LocalHalfSpace& plane, const LocalVec3& normal, Sum& sum) {
+TALUS_HD TALUS_DEVICE_CALL void add_linear_depth(const Polygon& polygon, const LocalHalfSpace& plane,
+                                                 const LocalVec3& normal, Sum& sum) {
   const Lanes depths = depths_below(plane, polygon.corners);
   const LaneVec3 corners = sum.origin.to(polygon.corners);
   DepthTriangles fan{first_lane(corners), corners, next_lane(corners), first_lane(depths), depths,
@@ -186,7 +187,8 @@ struct FieldOnPolygon {
 /// pieces on which each term is one plane: every choice of one plane a term is tried, dropping all choices that begin
 /// with one whose piece is empty.
 template <class Sum>
-TALUS_HD TALUS_DEVICE_CALL void add_depth(const Polygon& polygon, FieldOnPolygon& here, const LocalVec3& normal, Sum& sum) {
+TALUS_HD TALUS_DEVICE_CALL void add_depth(const Polygon& polygon, FieldOnPolygon& here, const LocalVec3& normal,
+                                          Sum& sum) {
   ScratchArray<std::uint8_t, kMostTermsOnPolygon> choice;
   for (int t = 0; t < here.term_count; ++t) choice[t] = 0;
   while (true) {
@@ -244,7 +246,8 @@ class PolygonGrid {
 
 /// Adds a field over a polygon as a whole; false if it has more parts there, or one of more corners, than fit.
 template <class Sum>
-TALUS_HD TALUS_DEVICE_CALL bool add_depth_at_once(const Polygon& polygon, const DepthField& field, const LocalVec3& normal, Sum& sum) {
+TALUS_HD TALUS_DEVICE_CALL bool add_depth_at_once(const Polygon& polygon, const DepthField& field,
+                                                  const LocalVec3& normal, Sum& sum) {
   if (field.term_count == 0 && field.plane_count <= NearField::kMostPlanes) {
     add_least_depth(polygon, field.planes, field.plane_count, normal, sum);
     return !sum.is_truncated;
@@ -279,7 +282,7 @@ TALUS_HD bool add_depth_by_halves(const Polygon& polygon, const DepthField& fiel
 /// Integrates a depth field over a polygon.
 template <class Sum, class Profile>
 TALUS_HD TALUS_DEVICE_CALL Sum integrate_depth(const Polygon& polygon, const DepthField& field, const LocalVec3& normal,
-                             const Profile& profile) {
+                                               const Profile& profile) {
   Sum empty;
   empty.profile = profile;
   empty.origin = MomentOrigin::at(polygon.corner(0));

@@ -15,7 +15,8 @@ using SeparatingPlane = std::int16_t;
 
 /// How far outside the plane, given in the frame that `to_plane` leads to, all vertices of `part` lie, in that frame's
 /// lengths [m]; negative if one lies inside.
-TALUS_HD TALUS_DEVICE_CALL inline Real distance_outside(const PartView& part, const HalfSpace& plane, const FrameChange& to_plane) {
+TALUS_HD TALUS_DEVICE_CALL inline Real distance_outside(const PartView& part, const HalfSpace& plane,
+                                                        const FrameChange& to_plane) {
   // The plane in the part's own frame: one transformation instead of one per vertex.
   const HalfSpace own{to_plane.scale * transpose_times(to_plane.rotation, plane.normal),
                       plane.offset - dot(plane.normal, to_plane.translation)};
@@ -78,7 +79,7 @@ TALUS_HD inline std::uint64_t vertices_above(const LocalHalfSpace& plane, const 
 /// one or two count as they lie, since the plane of a face that is nearly flush would be cut up to tolerance / angle
 /// away. Returns a face whose plane has all vertices in front, or -1.
 TALUS_HD TALUS_DEVICE_CALL inline int classify(const PartView& solid, const PartVertices& vertices, LocalReal tolerance,
-                             PlaneSides& sides) {
+                                               PlaneSides& sides) {
   const std::uint64_t all = vertices.all();
   const Lanes clearly_above = every_lane<Lanes>(-tolerance), hardly_below = every_lane<Lanes>(tolerance);
   int cutting = 0, coplanar = 0, most_in_front = 0, best = 0;
