@@ -20,6 +20,7 @@ struct BodyConstants {
   DeviceVector<int> material;
   DeviceVector<Real> scale;            // [-]
   DeviceVector<Real> mass;             // [kg]
+  DeviceVector<Real> inverse_mass;     // 0 for a fixed body [1/kg]
   DeviceVector<Vec3> inertia;          // principal [kg m2]
   DeviceVector<Real> bounding_radius;  // [m]
   DeviceVector<Real> diameter;         // of the sphere of equal volume [m]
@@ -50,6 +51,7 @@ struct BodyView {
   const int* material;
   const Real* scale;
   const Real* mass;
+  const Real* inverse_mass;
   const Vec3* inertia;
   const Real* bounding_radius;
   const Real* diameter;
@@ -82,6 +84,7 @@ inline BodyView view(const BodyConstants& constants, BodyColumns& columns) {
           pointer(constants.material),
           pointer(constants.scale),
           pointer(constants.mass),
+          pointer(constants.inverse_mass),
           pointer(constants.inertia),
           pointer(constants.bounding_radius),
           pointer(constants.diameter),

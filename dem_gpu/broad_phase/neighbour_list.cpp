@@ -5,99 +5,14 @@
 #include <cstdio>
 #include <stdexcept>
 
-#include "dem_gpu/broad_phase/cell_grid.h"
+#include "dem_gpu/broad_phase/candidate_pairs.h"
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/energy/energy_watch.h"
 #include "dem_gpu/meshes/facet_lists.h"
 #include "dem_gpu/periodic/ghosts.h"
-#include "dem_gpu/walls/wall_surface.h"
 
 namespace dem_gpu {
 namespace {
-
-TALUS_HD ContactKey pair_key(const ShapeRange* shapes, const int* shape, int i, int j) {
-  const bool i_is_sphere = shapes[shape[i]].part_count == 0, j_is_sphere = shapes[shape[j]].part_count == 0;
-  if (i_is_sphere == j_is_sphere)
-    return contact_key(i_is_sphere ? ContactKind::sphere_sphere : ContactKind::polyhedron_polyhedron, i < j ? i : j,
-                       i < j ? j : i);
-  return contact_key(ContactKind::sphere_polyhedron, i_is_sphere ? i : j, i_is_sphere ? j : i);
-}
-
-TALUS_HD ContactKey wall_key(const ShapeRange* shapes, int shape, const WallRecord& wall, int body, int index) {
-  const bool is_sphere = shapes[shape].part_count == 0;
-  ContactKind kind = is_sphere ? ContactKind::sphere_wall : ContactKind::polyhedron_wall;
-  if (wall.kind == WallKind::volume_object)
-    kind = is_sphere ? ContactKind::sphere_object : ContactKind::polyhedron_object;
-  if (wall.kind == WallKind::mesh) kind = is_sphere ? ContactKind::sphere_mesh : ContactKind::polyhedron_mesh;
-  return contact_key(kind, body, index);
-}
-
-/// May a ball of radius `reach` about x touch the wall?
-TALUS_HD bool is_near_wall(const ShapeView& shapes, const MeshView& meshes, const WallRecord& wall, const Vec3& x,
-                           Real reach) {
-  if (!wall.is_present) return false;
-  if (wall.kind == WallKind::mesh) {
-    bool is_near = false;
-    visit_facets_near(meshes, wall.mesh, rotate_back(wall.orientation, x - wall.point), reach, [&](int /*facet*/) {
-      is_near = true;
-      return false;
-    });
-    return is_near;
-  }
-  if (wall.kind == WallKind::volume_object) {
-    const PartView part = part_view(shapes, shapes.shapes[wall.shape].first_part);
-    const Vec3 local = rotate_back(wall.orientation, x - wall.point);
-    for (int f = 0; f < part.range.face_count; ++f)
-      if (depth_below<Real>(part.planes[f], local) < -reach) return false;
-    return true;
-  }
-  const WallField field = wall_field(wall, x);
-  return field.depth > -reach && field.from_base > -reach && field.from_top > -reach;
-}
-
-/// Counts (keys == nullptr) or writes the candidate pairs that body i owns: with bodies of higher index or their
-/// ghosts, with walls. A sphere meets every ghost of a polyhedron.
-struct ListPairs {
-  BodyView bodies;  // with ghosts
-  GhostView ghosts;
-  ShapeView shapes;
-  MeshView meshes;
-  CellGrid::View grid;
-  const WallRecord* walls;
-  int wall_count;
-  Real skin;  // [m]
-  int* first;
-  ContactKey* keys;
-
-  TALUS_HD void operator()(int i) const {
-    int count = 0;
-    if (bodies.active[i]) {
-      const Vec3 x = bodies.position[i];
-      const Real radius = bodies.bounding_radius[i];
-      ContactKey* out = keys ? keys + first[i] : nullptr;
-      grid.visit_neighbours(x, [&](int j) {
-        if (!owns_pair(i, j) || (bodies.is_fixed(i) && bodies.is_fixed(j))) return;
-        const Real reach = radius + bodies.bounding_radius[j] + skin;
-        if (norm_squared(bodies.position[j] - x) >= reach * reach) return;
-        if (out) out[count] = pair_key(shapes.shapes, bodies.shape, i, j);
-        ++count;
-      });
-      for (int w = 0; w < wall_count && !bodies.is_fixed(i); ++w) {
-        if (!is_near_wall(shapes, meshes, walls[w], x, radius + skin)) continue;
-        if (out) out[count] = wall_key(shapes.shapes, bodies.shape[i], walls[w], i, w);
-        ++count;
-      }
-    }
-    if (!keys) first[i] = count;
-  }
-
-  /// Of the ghosts a pair could be met at, it is met at the one: of the body of higher index, of the polyhedron.
-  TALUS_HD bool owns_pair(int i, int j) const {
-    if (!ghosts.is_ghost(j)) return i < j;
-    const auto is_sphere = [&](int body) { return shapes.shapes[bodies.shape[body]].part_count == 0; };
-    return is_sphere(i) == is_sphere(j) ? i < ghosts.owner(j) : is_sphere(i);
-  }
-};
 
 /// Length of each contact's separating-plane cache.
 struct CountPartPairs {
@@ -125,9 +40,18 @@ struct CarryHistory {
   int from_count;
   ContactFeatures features;
 
-  TALUS_HD void operator()(int c) const {
-    const int old = lower_bound(from.key, from_count, former_key[c]);
-    if (old == from_count || from.key[old] != former_key[c]) return;
+  /// Both tables ascend, but for keys that a periodic box has changed: the search goes on from the last place.
+  TALUS_HD void operator()(int begin, int end) const {
+    int old = lower_bound(from.key, from_count, former_key[begin]);
+    for (int c = begin; c < end; ++c) {
+      const ContactKey key = former_key[c];
+      if (c > begin && key < former_key[c - 1]) old = lower_bound(from.key, from_count, key);
+      while (old < from_count && from.key[old] < key) ++old;
+      if (old < from_count && from.key[old] == key) carry(c, old);
+    }
+  }
+
+  TALUS_HD void carry(int c, int old) const {
     visit_history(features, [&](auto column) { (to.*column)[c] = (from.*column)[old]; });
     to.is_truncated[c] = from.is_truncated[old];
     if (!features.has_polyhedra) return;
@@ -170,39 +94,13 @@ struct MarkListed {
   }
 };
 
-DeviceVector<ContactKey> candidate_keys(const Model& model, State& state) {
-  const BodyView bodies = bodies_with_ghosts(model, state);
-  const GhostView ghosts = ghost_view(model, state);
-  const int body_count = ghosts.body_count;
-  const Real reach = 2 * max_of(model.bodies.bounding_radius, Real(0)) + model.skin;
-  CellGrid grid;
-  grid.build(bodies, reach);
-  DeviceVector<int> first(static_cast<std::size_t>(body_count) + 1, 0);
-  ListPairs list{bodies,
-                 ghosts,
-                 view(model.shapes.columns),
-                 view(model.meshes),
-                 grid.view(),
-                 state.walls.device(),
-                 state.walls.count(),
-                 model.skin,
-                 pointer(first),
-                 nullptr};
-  parallel_for(0, body_count, list);
-  DeviceVector<ContactKey> keys(static_cast<std::size_t>(exclusive_scan(first)));
-  list.keys = pointer(keys);
-  if (!keys.empty()) parallel_for(0, body_count, list);
-  sort(keys);
-  return keys;
-}
-
 /// `change`: of the ghosts, null without a periodic box.
 void carry_history(const Model& model, State& state, const GhostChange* change, ContactColumns& next) {
   const int count = static_cast<int>(next.key.size()), old_count = static_cast<int>(state.contacts.key.size());
   if (old_count == 0) return;
   DeviceVector<ContactKey> former;
   if (change) former = former_keys(model, state, next.key, *change);
-  parallel_for(
+  parallel_for_ranges(
       0, count,
       CarryHistory{view(state.contacts), view(next), pointer(change ? former : next.key), old_count, model.features});
   if (change) wrap_contact_points(model, *change, next);

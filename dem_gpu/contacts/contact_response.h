@@ -235,6 +235,24 @@ TALUS_HD TALUS_ONE_COPY void write_contact(const ContactView& contacts, int c, c
   }
 }
 
+/// Work of a touching contact, before it is written.
+template <class Damping, class Friction>
+TALUS_HD void record_contact(const ContactView& contacts, int c, const ElasticContact& elastic,
+                             const ContactForces& forces, const ContactSide& a, const ContactSide& b, Real time_step) {
+  const Vec3 torque_b = elastic_torque_on_b(elastic, a, b);
+  const StepWork work = step_work<Friction>(contacts, c, elastic, torque_b, forces, a, b, time_step);
+  [[maybe_unused]] const Real stored_before = contacts.elastic_work[c];
+  record_work(contacts, c, work, forces.friction.energy, true, is_wall_kind(key_kind(contacts.key[c])));
+  if constexpr (Damping::kHasOrbit)
+    if (forces.normal.is_orbit) record_orbit(contacts, c, work, stored_before, elastic.energy);
+  contacts.last_elastic_force[c] = elastic.force;
+  contacts.last_elastic_torque_a[c] = elastic.torque_a;
+  contacts.last_elastic_torque_b[c] = torque_b;
+  contacts.last_damping_force[c] = forces.damping;
+  contacts.last_friction_force[c] = forces.friction.force;
+  if constexpr (Friction::kHasCouple) contacts.last_friction_couple[c] = forces.friction.couple;
+}
+
 /// Completes a touching contact: damping, friction, forces on both sides, history, work.
 template <class Damping, class Friction, class Record>
 TALUS_HD void respond(const ContactView& contacts, int c, ElasticContact& elastic, const ContactSide& a,
@@ -242,20 +260,7 @@ TALUS_HD void respond(const ContactView& contacts, int c, ElasticContact& elasti
                       const typename Friction::Patch& patch, const Step& step, Real diameter) {
   const ContactForces forces =
       contact_forces<Damping>(contacts, c, elastic, a, b, pair, friction, patch, step, diameter);
-  if constexpr (Record::kEnabled) {
-    const Vec3 torque_b = elastic_torque_on_b(elastic, a, b);
-    const StepWork work = step_work<Friction>(contacts, c, elastic, torque_b, forces, a, b, step.length);
-    [[maybe_unused]] const Real stored_before = contacts.elastic_work[c];
-    record_work(contacts, c, work, forces.friction.energy, true, is_wall_kind(key_kind(contacts.key[c])));
-    if constexpr (Damping::kHasOrbit)
-      if (forces.normal.is_orbit) record_orbit(contacts, c, work, stored_before, elastic.energy);
-    contacts.last_elastic_force[c] = elastic.force;
-    contacts.last_elastic_torque_a[c] = elastic.torque_a;
-    contacts.last_elastic_torque_b[c] = torque_b;
-    contacts.last_damping_force[c] = forces.damping;
-    contacts.last_friction_force[c] = forces.friction.force;
-    if constexpr (Friction::kHasCouple) contacts.last_friction_couple[c] = forces.friction.couple;
-  }
+  if constexpr (Record::kEnabled) record_contact<Damping, Friction>(contacts, c, elastic, forces, a, b, step.length);
   write_contact<Friction>(contacts, c, elastic, forces, a, b, step.length, diameter);
 }
 

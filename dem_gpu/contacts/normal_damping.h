@@ -8,6 +8,7 @@
 #include "dem_gpu/contacts/elastic_contact.h"
 #include "dem_gpu/contacts/friction/friction_contact.h"
 #include "dem_gpu/contacts/normal_orbit.h"
+#include "dem_gpu/contacts/normal_series.h"
 
 namespace dem_gpu {
 
@@ -69,6 +70,98 @@ struct PointDamping {
   }
 };
 
+/// Sub-steps of an orbit. `progress`: duration times the rates of the motion [-].
+TALUS_HD inline int orbit_substeps(Real progress, bool is_first) {
+  // Share of 1 / (rates) that a sub-step spans: restitution is then right to 1e-5 at 20 steps a contact.
+  constexpr Real kProgressPerSubstep = Real(0.1);
+  constexpr int kFirstSubsteps = 6, kMostSubsteps = 512;
+  const int needed = static_cast<int>(std::ceil(progress / kProgressPerSubstep));
+  const int least = is_first ? kFirstSubsteps : 1;
+  return std::min(std::max(needed, least), kMostSubsteps);
+}
+
+/// A step along the orbit in sub-steps: with touch or release in it, or a depth that changes much.
+template <class Law>
+TALUS_HD TALUS_ONE_COPY NormalKick<Real> orbit_in_substeps(const NormalStart<Real>& start, Real step, bool is_first) {
+  const NormalAcceleration law{start.per_depth, start.elastic, start.damping, start.adhesion, Law::kExponent > 1};
+  const Real rate = std::sqrt(Law::kExponent * start.elastic * start.per_depth);
+  NormalOrbit orbit{law, start.depth, start.speed, start.acceleration};
+  Real duration = step;
+  if (is_first) duration += orbit.back_to_touch(step);
+  orbit.advance(duration, orbit_substeps((rate + start.damping) * duration, is_first), is_first);
+  return {orbit.kick, orbit.has_parted ? orbit.kick : orbit.shift / step};
+}
+
+template <class Law>
+TALUS_HD NormalKick<Real> orbit_kick(const NormalStart<Real>& start, Real step, bool is_first) {
+  NormalSeries<Law, Real> series;
+  if (!is_first) {
+    const NormalKick<Real> kick = series.advance(start, step);
+    if (bits_of(series.is_good()) != 0) return kick;
+  }
+  return orbit_in_substeps<Law>(start, step, is_first);
+}
+
+/// What a sphere contact is at as a step ends, along its normal.
+struct SphereMotion {
+  NormalStart<Real> start;  // of the orbit; if the contact has just begun, by others: turning alone
+  Real mean_speed;          // of approach over the step that ends now [m/s]
+  Real owed;                // kick that the last step left to this one [m/s]
+  bool is_first;            // it has just begun
+  bool is_left_to_verlet;
+};
+
+/// What the next full kick of Verlet takes of the approach speed [m/s].
+struct SphereKick {
+  Real taken;
+  Real owed;  // of it by the step after
+};
+
+/// Between touch and release Verlet is left alone where there is neither dashpot nor adhesion: it is symplectic, so
+/// that contacts of several bodies keep their energy too. Its only loss of second order, where a step straddles touch
+/// or release, is taken away by the exact motion on the part in contact. For the linear spring only, whose rate is the
+/// same all through a contact; lone Hertz contacts and coarse steps fare better on their orbit.
+TALUS_HD inline SphereKick elastic_kick(const SphereMotion& motion, Real step) {
+  constexpr int kElasticSubsteps = 4;
+  const NormalStart<Real>& start = motion.start;
+  const NormalAcceleration law{start.per_depth, start.elastic, 0, 0, false};
+  if (motion.is_first) {
+    NormalOrbit orbit{law, start.depth, motion.mean_speed, start.acceleration};
+    const Real touched = orbit.back_to_touch(step);
+    NormalOrbit whole = orbit;
+    orbit.advance(touched, kElasticSubsteps, true);
+    const Real force = law(start.depth - orbit.shift, 0);
+    if (start.depth - orbit.shift + step * (motion.mean_speed - orbit.kick - step / 2 * force) <= 0) {
+      whole.advance(touched + step, kElasticSubsteps, true);
+      if (whole.has_parted) return {whole.kick, 0};
+    }
+    return {orbit.kick + step / 2 * force + orbit.shift / step, -orbit.shift / step};
+  }
+  const Real force = law.elastic, speed = start.speed - step / 2 * force;
+  if (start.depth + step * (speed + step / 2 * (start.acceleration - force)) <= 0) {
+    NormalOrbit orbit{law, start.depth, speed, start.acceleration};
+    orbit.advance(step, kElasticSubsteps, false);
+    if (orbit.has_parted) return {motion.owed + step / 2 * force + orbit.kick, 0};
+  }
+  return {motion.owed + step * force, 0};
+}
+
+/// Share of 1 / rate that a step of elastic_kick spans, at most: 16 steps a contact.
+inline constexpr Real kFineElasticStep = Real(0.2);
+
+/// Whether elastic_kick has the contact rather than its orbit. `rate`: of the tangent stiffness [1/s].
+template <class Law, class Number>
+TALUS_HD auto is_left_to_verlet(const Number& damping, const Number& adhesion, const Number& rate, Real step) {
+  return (damping == Real(0)) & (adhesion == Real(0)) & (rate * step < (Law::kExponent > 1 ? 0 : kFineElasticStep));
+}
+
+template <class Law>
+TALUS_HD TALUS_ONE_COPY SphereKick sphere_kick(const SphereMotion& motion, Real step) {
+  if (motion.is_left_to_verlet) return elastic_kick(motion, step);
+  const NormalKick<Real> orbit = orbit_kick<Law>(motion.start, step, motion.is_first);
+  return {motion.owed + orbit.mean, orbit.kick - orbit.mean};
+}
+
 /// The same dashpot for the power law F ~ depth^n of a sphere law, integrated within the step: restitution does not
 /// depend on the step, nor on where in a step the spheres touch. Velocity Verlet gets the mean force that takes the
 /// pair to where its orbit ends.
@@ -82,80 +175,29 @@ struct OrbitDamping {
     if (!(step > 0)) return {};  // forces of a start, before any step: the elastic one alone
     const Real force = -dot(elastic.force, elastic.normal);
     const Real rate = std::sqrt(elastic.stiffness / mass), damping = 2 * impact.pair.sphere_damping * rate;
-    const NormalAcceleration law{elastic.depth, (force + elastic.adhesion) / mass, damping, elastic.adhesion / mass,
-                                 Law::kExponent > 1};
+    const bool is_verlet = is_left_to_verlet<Law>(damping, elastic.adhesion, rate, step);
     const bool is_first = contacts.depth[c] == 0 && elastic.depth <= kTouchMargin * step * impact.mean_speed;
     Real by_others = 0, owed = contacts.owed_kick[c];
     if (!is_first) {
       const Real contact_before = -dot(contacts.force[c], elastic.normal) / mass;
-      if (impact.step.is_first) owed = step / 2 * contact_before;
+      if (impact.step.is_first && !is_verlet) owed = step / 2 * contact_before;
       by_others = 2 * (impact.predicted_speed - impact.mean_speed) / step + contact_before;
     }
-    if (damping == 0 && elastic.adhesion == 0 && !law.is_hertz && rate * step < kFineStep) {
-      const Real kick = elastic_kick(law, impact, is_first, by_others, contacts.owed_kick[c]);
-      elastic.force = -mass * kick / step * elastic.normal;  // without a dashpot all of it is elastic
-      return {};
-    }
-    NormalOrbit orbit{law, elastic.depth, impact.mean_speed + step / 2 * by_others - owed, by_others + impact.turning};
-    Real duration = step;
-    if (is_first) duration += orbit.back_to_touch(step);
-    orbit.advance(duration, substeps((rate + damping) * duration, is_first), is_first);
-    const Real kick = orbit.has_parted ? orbit.kick : orbit.shift / step;
-    contacts.owed_kick[c] = orbit.kick - kick;
-    elastic.force = -mass * (owed + kick) / step * elastic.normal;
-    if (damping == 0) return {};
-    return {0, true};
+    const SphereMotion motion{
+        {elastic.depth, 1 / elastic.depth, impact.mean_speed + step / 2 * by_others - owed, by_others + impact.turning,
+         (force + elastic.adhesion) / mass, damping, elastic.adhesion / mass},
+        impact.mean_speed,
+        owed,
+        is_first,
+        is_verlet};
+    const SphereKick kick = sphere_kick<Law>(motion, step);
+    contacts.owed_kick[c] = kick.owed;
+    // Without a dashpot all of it is elastic.
+    elastic.force = -mass * kick.taken / step * elastic.normal;
+    return {0, damping != 0};
   }
 
   TALUS_HD static void forget(const ContactView& contacts, int c) { contacts.owed_kick[c] = 0; }
-
- private:
-  /// Loss of approach speed in Verlet's next full kick [m/s]. Between touch and release Verlet is left alone: it is
-  /// symplectic, so that contacts of several bodies keep their energy too. Its only loss of second order, where a step
-  /// straddles touch or release, is taken away by the exact motion on the part in contact. For the linear spring only,
-  /// whose rate is the same all through a contact; lone Hertz contacts and coarse steps fare better on their orbit.
-  /// `owed`: in, of the last step; out, of this one.
-  TALUS_HD static Real elastic_kick(const NormalAcceleration& law, const NormalImpact& impact, bool is_first,
-                                    Real by_others, Real& owed) {
-    const Real step = impact.step.length, depth = law.depth0, before = owed;
-    const Real others = by_others + impact.turning;
-    owed = 0;
-    if (is_first) {
-      NormalOrbit orbit{law, depth, impact.mean_speed, others};
-      const Real touched = orbit.back_to_touch(step);
-      NormalOrbit whole = orbit;
-      orbit.advance(touched, kElasticSubsteps, true);
-      const Real force = law(depth - orbit.shift, 0);
-      if (depth - orbit.shift + step * (impact.mean_speed - orbit.kick - step / 2 * force) <= 0) {
-        whole.advance(touched + step, kElasticSubsteps, true);
-        if (whole.has_parted) return whole.kick;
-      }
-      owed = -orbit.shift / step;
-      return orbit.kick + step / 2 * force + orbit.shift / step;
-    }
-    const Real force = law.elastic;
-    const Real speed = impact.mean_speed - before + step / 2 * (by_others - force);
-    if (depth + step * (speed + step / 2 * (others - force)) <= 0) {
-      NormalOrbit orbit{law, depth, speed, others};
-      orbit.advance(step, kElasticSubsteps, false);
-      if (orbit.has_parted) return before + step / 2 * force + orbit.kick;
-    }
-    return before + step * force;
-  }
-
-  /// `progress`: duration times the rates of the motion [-].
-  TALUS_HD static int substeps(Real progress, bool is_first) {
-    const int needed = static_cast<int>(std::ceil(progress / kProgressPerSubstep));
-    const int least = is_first ? kFirstSubsteps : 1, most = kMostSubsteps;
-    return std::min(std::max(needed, least), most);
-  }
-
-  /// Share of 1 / (rates) that a sub-step spans: restitution is then right to 1e-5 at 20 steps a contact.
-  static constexpr Real kProgressPerSubstep = 0.1;
-  static constexpr int kFirstSubsteps = 6;
-  static constexpr int kMostSubsteps = 512;
-  static constexpr int kElasticSubsteps = 4;
-  static constexpr Real kFineStep = 0.2;  // of 1 / rate: 16 steps a contact
 };
 
 }  // namespace dem_gpu

@@ -12,7 +12,7 @@ namespace dem_gpu {
 /// Force over effective mass of a contact F = F0 r^n + c0 r^((n - 1) / 2) * speed - F_a, r = depth / depth0, n = 1 or
 /// 1.5. Elastic and damping force together never pull.
 struct NormalAcceleration {
-  Real depth0;        // [m]
+  Real per_depth;     // 1 / depth0 [1/m]
   Real elastic;       // F0 / m_eff [m/s2]
   Real damping;       // c0 / m_eff [1/s]
   Real adhesion = 0;  // F_a / m_eff [m/s2]
@@ -20,7 +20,7 @@ struct NormalAcceleration {
 
   /// Elastic and damping force against approach; negative: it has let go [m/s2].
   TALUS_HD Real unclamped(Real depth, Real speed) const {
-    const Real r = std::max(depth, Real(0)) / depth0;
+    const Real r = std::max(depth, Real(0)) * per_depth;
     if (!is_hertz) return elastic * r + damping * speed;
     const Real root = std::sqrt(r);
     return elastic * r * root + damping * std::sqrt(root) * speed;
@@ -97,18 +97,46 @@ struct NormalOrbit {
     return {p.kick + h / 6 * (a1 + 2 * a2 + 2 * a3 + a4), p.shift + h / 6 * (p.kick + 2 * v2 + 2 * v3 + v4)};
   }
 
-  /// From the start of the sub-step, of length h, at whose end it has let go [s].
+  /// Falls through zero where it lets go: smooth there, unlike the force itself.
+  TALUS_HD Real hold(Real time, const Point& p) const {
+    if (force.adhesion != 0 || force.damping == 0) return depth(time, p) * force.per_depth;
+    const Real r = std::max(depth(time, p), Real(0)) * force.per_depth;
+    const Real root = std::sqrt(r);
+    return force.elastic * (force.is_hertz ? r * std::sqrt(root) : r) + force.damping * speed(time, p);
+  }
+
+  /// From the start of the sub-step, of length h, at whose end it has let go [s]: regula falsi that halves the value at
+  /// the end that stays (Dowell & Jarratt, BIT 11 (1971) 168-174).
   TALUS_HD Real time_to_release(const Point& p, Real time, Real h) const {
     Real low = 0, high = h;
-    for (int i = 0; i < kReleaseBisections; ++i) {
-      const Real middle = (low + high) / 2;
-      (has_let_go(time + middle, stepped(p, time, middle)) ? high : low) = middle;
+    Real at_low = hold(time, p), at_high = hold(time + h, stepped(p, time, h));
+    const Real small = kReleaseTolerance * (std::abs(at_low) + std::abs(at_high));
+    int side = 0;  // that moved last
+    for (int i = 0; i < kMostReleaseSteps && high - low > kReleaseTolerance * h; ++i) {
+      // Where the values tell nothing, half way.
+      const Real share = at_low > 0 && at_high < 0 ? at_low / (at_low - at_high) : Real(0.5);
+      const Real middle = low + (high - low) * share;
+      const Real value = hold(time + middle, stepped(p, time, middle));
+      if (std::abs(value) <= small) return middle;
+      if (value > 0) {
+        low = middle;
+        at_low = value;
+        if (side > 0) at_high /= 2;
+        side = 1;
+      } else {
+        high = middle;
+        at_high = value;
+        if (side < 0) at_low /= 2;
+        side = -1;
+      }
     }
     return low;
   }
 
-  /// To 1e-6 of a sub-step: the force is small at release, so the speed is right to 1e-8 and better.
-  static constexpr int kReleaseBisections = 20;
+  /// Of a sub-step, and of what holds the pair: the force is small at release, so the speed is right to 1e-8 and
+  /// better.
+  static constexpr Real kReleaseTolerance = Real(1e-6);
+  static constexpr int kMostReleaseSteps = 20;
 };
 
 }  // namespace dem_gpu

@@ -27,6 +27,9 @@ inline constexpr int kFewItems = 0;
 inline constexpr int kFewItems = 32;
 #endif
 
+/// The same, of ranges of items.
+inline constexpr int kFewRanges = kFewItems > 0 ? 1 : 0;
+
 /// call(policy): the calling thread alone for a few items, else the backend.
 template <class Call>
 decltype(auto) with_policy_for(std::size_t items, const Call& call) {
@@ -48,6 +51,38 @@ void parallel_for(int first, int last, const Kernel& kernel) {
   if (first < last)
     thrust::for_each(thrust::device, thrust::counting_iterator<int>(first), thrust::counting_iterator<int>(last),
                      kernel);
+}
+
+#if defined(TALUS_BACKEND_CUDA)
+inline constexpr int kRangeLength = 1;
+#else
+/// Long enough to fill vector registers, short enough to share out.
+inline constexpr int kRangeLength = 256;
+#endif
+
+template <class Kernel>
+struct RangeKernel {
+  Kernel kernel;
+  int first, last;
+
+  TALUS_HD void operator()(int range) const {
+    const int begin = first + range * kRangeLength;
+    kernel(begin, begin + kRangeLength < last ? begin + kRangeLength : last);
+  }
+};
+
+TALUS_HD inline int range_count(int items) { return (items + kRangeLength - 1) / kRangeLength; }
+
+/// kernel(i, j) for ranges [i, j) that cover [first, last), of up to kRangeLength items, in any order.
+template <class Kernel>
+void parallel_for_ranges(int first, int last, const Kernel& kernel) {
+  const int ranges = range_count(last - first);
+  const RangeKernel<Kernel> of_range{kernel, first, last};
+  if (ranges <= kFewRanges)
+    for (int i = 0; i < ranges; ++i) of_range(i);
+  else
+    thrust::for_each(thrust::device, thrust::counting_iterator<int>(0), thrust::counting_iterator<int>(ranges),
+                     of_range);
 }
 
 template <class T>

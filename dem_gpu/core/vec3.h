@@ -6,12 +6,13 @@
 
 #include "dem_gpu/core/host_device.h"
 #include "dem_gpu/core/real.h"
+#include "dem_gpu/core/real_lanes.h"
 
 namespace dem_gpu {
 
 template <class Scalar>
 struct Vector3 {
-  Scalar x = 0, y = 0, z = 0;
+  Scalar x{}, y{}, z{};
 
   TALUS_HD Vector3& operator+=(const Vector3& b) { return x += b.x, y += b.y, z += b.z, *this; }
   TALUS_HD Vector3& operator-=(const Vector3& b) { return x -= b.x, y -= b.y, z -= b.z, *this; }
@@ -73,7 +74,7 @@ TALUS_HD inline Scalar norm_squared(const Vector3<Scalar>& a) {
 }
 template <class Scalar>
 TALUS_HD inline Scalar norm(const Vector3<Scalar>& a) {
-  return std::sqrt(dot(a, a));
+  return square_root(dot(a, a));
 }
 
 /// a / |a|, or `fallback` where a is zero.

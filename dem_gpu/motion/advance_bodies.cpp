@@ -14,14 +14,36 @@ struct AdvanceBody {
 
   TALUS_HD void operator()(int i) const {
     if (!bodies.is_moving(i)) return;
-    const Real half = time_step / 2;
-    const Vec3 kick = (half / bodies.mass[i]) * bodies.force[i];
+    const Vec3 kick = (time_step / 2 * bodies.inverse_mass[i]) * bodies.force[i];
     const Vec3 velocity = bodies.velocity[i] + kick;
     bodies.position[i] += time_step * velocity;
     bodies.velocity[i] = velocity;
     bodies.mean_velocity[i] = velocity;
     bodies.predicted_velocity[i] = velocity + kick;
+    const Vec3& inertia = bodies.inertia[i];
+    if (inertia.x == inertia.y && inertia.y == inertia.z)
+      turn_round_body(i);
+    else
+      turn_body(i);
+    bodies.listed_displacement[i] = displacement(i, velocity);
+  }
 
+ private:
+  /// Equal moments: the axis stays, so that one turn does the whole step.
+  TALUS_HD void turn_round_body(int i) const {
+    const Quaternion before = bodies.orientation[i];
+    const Mat3 rotation = rotation_matrix(before);
+    const Vec3 kick = (time_step / 2 / bodies.inertia[i].x) * bodies.torque[i];
+    const Vec3 in_body = bodies.angular_velocity[i] + transpose_times(rotation, kick);
+    const Vec3 spin = rotation * in_body;
+    bodies.orientation[i] = normalized(before * turn_by(time_step * in_body));
+    bodies.angular_velocity[i] = in_body;
+    bodies.mean_angular_velocity[i] = spin;
+    bodies.predicted_angular_velocity[i] = spin + kick;
+  }
+
+  TALUS_HD void turn_body(int i) const {
+    const Real half = time_step / 2;
     const Vec3 inertia = bodies.inertia[i];
     const Quaternion before = bodies.orientation[i];
     Quaternion after = before;
@@ -32,7 +54,6 @@ struct AdvanceBody {
     bodies.mean_angular_velocity[i] = mean_angular_velocity(before, after, time_step);
     const Vec3 predicted = momentum + half * rotate_back(after, bodies.torque[i]);
     bodies.predicted_angular_velocity[i] = rotate(after, over(predicted, inertia));
-    bodies.listed_displacement[i] = displacement(i, velocity);
   }
 
   TALUS_HD static Vec3 over(const Vec3& a, const Vec3& b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
@@ -40,9 +61,11 @@ struct AdvanceBody {
   /// Infinite for a body that is lost: not finite, or so fast that it could pass through another.
   TALUS_HD Real displacement(int i, const Vec3& velocity) const {
     const Real distance = norm(bodies.position[i] - bodies.listed_position[i]);
-    const Real spin = norm(bodies.angular_velocity[i]);
-    const Real travel = time_step * (norm(velocity) + spin * bodies.turning_radius(i));
-    const bool is_sound = distance < Real(1e300) && spin < Real(1e150) && travel < kTravelShare * bodies.least_width[i];
+    const Real spin_squared = norm_squared(bodies.angular_velocity[i]), radius = bodies.turning_radius(i);
+    const Real turning = radius > 0 ? std::sqrt(spin_squared) * radius : 0;
+    const Real travel = time_step * (norm(velocity) + turning);
+    const bool is_sound =
+        distance < Real(1e300) && spin_squared < Real(1e300) && travel < kTravelShare * bodies.least_width[i];
     return is_sound ? distance : Real(HUGE_VAL);
   }
 };

@@ -21,18 +21,14 @@ struct GatherForces {
     for (int k = incident_first[i]; k < incident_first[i + 1]; ++k) {
       const int entry = static_cast<int>(incident[k] & 0xffffffff);
       const int contact = entry >> 1;
-      if (entry & 1) {
-        force -= contacts.force[contact];
-        torque += contacts.torque_b[contact];
-      } else {
-        force += contacts.force[contact];
-        torque += contacts.torque_a[contact];
-      }
+      const bool is_b = (entry & 1) != 0;
+      force += (is_b ? Real(-1) : Real(1)) * contacts.force[contact];
+      torque += (is_b ? contacts.torque_b : contacts.torque_a)[contact];
     }
     bodies.force[i] = force;
     bodies.torque[i] = torque;
     const Real half = time_step / 2;
-    bodies.velocity[i] += (half / bodies.mass[i]) * force;
+    bodies.velocity[i] += (half * bodies.inverse_mass[i]) * force;
     const Vec3 kick = half * rotate_back(bodies.orientation[i], torque), inertia = bodies.inertia[i];
     bodies.angular_velocity[i] += Vec3{kick.x / inertia.x, kick.y / inertia.y, kick.z / inertia.z};
   }

@@ -32,6 +32,22 @@ TALUS_HD inline void rotate_freely(Quaternion& orientation, Vec3& momentum, cons
   orientation = normalized(orientation);
 }
 
+/// Turn by the rotation vector [rad] as a quaternion.
+TALUS_HD inline Quaternion turn_by(const Vec3& rotation) {
+  const Vec3 half = Real(0.5) * rotation;
+  const Real square = norm_squared(half);
+  Real cosine, sine_share;
+  if (square < Real(0.01)) {  // to rounding, by the first terms of both series
+    cosine = 1 - square / 2 * (1 - square / 12 * (1 - square / 30 * (1 - square / 56 * (1 - square / 90))));
+    sine_share = 1 - square / 6 * (1 - square / 20 * (1 - square / 42 * (1 - square / 72)));
+  } else {
+    const Real angle = std::sqrt(square);
+    cosine = std::cos(angle);
+    sine_share = std::sin(angle) / angle;
+  }
+  return {cosine, sine_share * half.x, sine_share * half.y, sine_share * half.z};
+}
+
 /// Mean angular velocity that takes `from` to `to` in `duration` [rad/s], world frame.
 TALUS_HD inline Vec3 mean_angular_velocity(const Quaternion& from, const Quaternion& to, Real duration) {
   Quaternion turn = to * conjugate(from);

@@ -159,6 +159,7 @@ void fit_columns_to_ghosts(const Model& model, State& state) {
   resize_and_copy(constants.material, ghosts);
   resize_and_copy(constants.scale, ghosts);
   resize_and_copy(constants.mass, ghosts);
+  resize_and_copy(constants.inverse_mass, ghosts);
   resize_and_copy(constants.inertia, ghosts);
   resize_and_copy(constants.bounding_radius, ghosts);
   resize_and_copy(constants.diameter, ghosts);

@@ -77,13 +77,11 @@ std::vector<PairProperties> pair_properties(const Scene& scene) {
       const Real restitution = contact.restitution;
       if (!solved.contains(restitution)) solved[restitution] = damping_ratio(restitution);
       const Material &a = scene.materials[i], &b = scene.materials[j];
-      pairs[i * n + j] = {solved[restitution],
-                          contact.friction_coefficient,
-                          effective_modulus(a, b),
-                          of_tangent * solved[restitution],
-                          tangential_stiffness_ratio(scene, a, b),
-                          contact.rolling_friction,
-                          contact.adhesion};
+      const Real stiffness_ratio = tangential_stiffness_ratio(scene, a, b);
+      pairs[i * n + j] = {solved[restitution],     contact.friction_coefficient,
+                          effective_modulus(a, b), of_tangent * solved[restitution],
+                          stiffness_ratio,         contact.rolling_friction,
+                          contact.adhesion,        of_tangent * solved[restitution] * std::sqrt(stiffness_ratio)};
     }
   return pairs;
 }
@@ -92,7 +90,7 @@ void set_bodies(const Scene& scene, const PreparedShapes& prepared, BodyConstant
   const std::size_t n = scene.bodies.size();
   const std::vector<ShapeRange> shapes = to_host(prepared.columns.shapes);
   std::vector<int> shape(n), material(n);
-  std::vector<Real> scale(n), mass(n), radius(n), diameter(n), width(n);
+  std::vector<Real> scale(n), mass(n), inverse_mass(n), radius(n), diameter(n), width(n);
   std::vector<Vec3> inertia(n), position(n), velocity(n), angular_velocity(n);
   std::vector<Quaternion> orientation(n);
   std::vector<char> active(n);
@@ -104,6 +102,7 @@ void set_bodies(const Scene& scene, const PreparedShapes& prepared, BodyConstant
     material[i] = body.material;
     scale[i] = s;
     mass[i] = density * range.volume * s * s * s;
+    inverse_mass[i] = body.is_fixed ? 0 : 1 / mass[i];
     inertia[i] = (density * s * s * s * s * s) * range.inertia;
     radius[i] = s * range.bounding_radius;
     diameter[i] = s * range.equivalent_diameter;
@@ -118,6 +117,7 @@ void set_bodies(const Scene& scene, const PreparedShapes& prepared, BodyConstant
   assign(constants.material, material);
   assign(constants.scale, scale);
   assign(constants.mass, mass);
+  assign(constants.inverse_mass, inverse_mass);
   assign(constants.inertia, inertia);
   assign(constants.bounding_radius, radius);
   assign(constants.diameter, diameter);

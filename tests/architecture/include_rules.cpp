@@ -66,6 +66,7 @@ const Library kLibraries[] = {
     {"zlib", "zlib\\.h", "(catalog|postprocess|shape_pipeline)/.*\\.cpp"},
     {"libtiff", "tiffio\\.h", "shape_pipeline/.*\\.cpp"},
     {"Thrust, CUB or CUDA", "(thrust|cub|cuda)/.*|cuda.*\\.h|nvtx.*", "dem_gpu/core/.*"},
+    {"the compiler's vector registers", "immintrin\\.h", "dem_gpu/core/.*"},
     {"HDF5", "(hdf5|H5[A-Za-z]*)\\.h", "dem_gpu/.*\\.cpp"},
     {"CLI11", "CLI/.*", "workflows/.*\\.cpp"},
     {"toml++", "toml\\+\\+/.*", "workflows/.*"},

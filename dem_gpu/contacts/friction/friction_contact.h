@@ -29,6 +29,7 @@ struct PairProperties {
   Real tangential_stiffness_ratio = 0;  // tangential over normal stiffness [-]
   Real rolling_friction = 0;            // mu_r [-]
   Real adhesion = 0;                    // work of adhesion [J/m2]
+  Real sphere_tangential_damping = 0;   // damping ratio times the root of the stiffness ratio [-]
 };
 
 /// Motion of a relative to b at the contact point, world frame.

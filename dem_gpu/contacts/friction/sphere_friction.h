@@ -10,23 +10,61 @@
 
 namespace dem_gpu {
 
-/// Share of its length that a spring keeps when the normal contact has changed. Springs of a Hertz contact stiffen with
-/// the depth: then they keep their force; as they soften they keep their length. Either way their energy only falls.
-/// Thornton & Yin, Powder Technol. 65 (1991) 153-166; Walton, Mech. Mater. 16 (1993) 239-247.
-template <class Law>
-TALUS_HD Real length_kept(Real depth_before, Real depth) {
-  if constexpr (Law::kExponent > 1) {
-    if (depth_before > 0 && depth > depth_before) return std::sqrt(depth_before / depth);
-  }
-  return 1;
+/// What a spring in the plane of a sphere contact sees, of one contact or of several side by side.
+template <class Number>
+struct SphereSlip {
+  Vector3<Number> normal;
+  Number depth_before;              // over the depth now; 0 if new [-]
+  Number twist;                     // of the spheres about the normal over the step [rad]
+  Vector3<Number> mean, predicted;  // tangential velocity of a over b: moves the spring, is damped [m/s]
+  Number limit;                     // of the force [N]
+};
+
+/// Force of such a spring and the energy left in it.
+template <class Number>
+struct SphereSpringForce {
+  Vector3<Number> force;  // on a [N]
+  Number energy;          // [J]
+};
+
+/// Square of the share of its length that a spring keeps when the normal contact has changed. Springs of a Hertz
+/// contact stiffen with the depth: then they keep their force; as they soften they keep their length. Either way their
+/// energy only falls. Thornton & Yin, Powder Technol. 65 (1991) 153-166; Walton, Mech. Mater. 16 (1993) 239-247.
+/// `depth_before`: over the depth now.
+template <class Law, class Number>
+TALUS_HD Number length_kept_squared(const Number& depth_before) {
+  const Number one = Number{} + Real(1);
+  if constexpr (Law::kExponent > 1) return select(depth_before > Real(0), smaller(depth_before, one), one);
+  return one;
 }
 
-/// Spring as it was at the end of the last step, turned with the spin of the contact about its normal.
-template <class Law>
-TALUS_HD Vec3 carried_spring(const Vec3& displacement, Real depth_before, const FrictionContact& contact) {
-  const Vec3& normal = contact.elastic.normal;
-  const Real twist = contact.time_step * dot(contact.mean_spin, normal);
-  return length_kept<Law>(depth_before, contact.elastic.depth) * (displacement + twist * cross(normal, displacement));
+/// The spring, as it was at the end of the last step, turns with the spin of the contact about its normal and moves
+/// with the slip.
+template <class Law, class Number>
+TALUS_HD SphereSpringForce<Number> spring_force(Vector3<Number>& displacement, const SphereSlip<Number>& slip,
+                                                const Number& stiffness, const Number& damping, Real time_step) {
+  TangentialSprings<Number> spring{displacement + slip.twist * cross(slip.normal, displacement), stiffness, damping};
+  SphereSpringForce<Number> found;
+  found.force = spring.force(slip.normal, slip.mean, slip.predicted, time_step, slip.limit,
+                             length_kept_squared<Law>(slip.depth_before));
+  found.energy = Real(0.5) * stiffness * norm_squared(spring.displacement);
+  displacement = spring.displacement;
+  return found;
+}
+
+/// Dashpot of the tangential spring [N s/m]. `rate`: of its damping, 2 z sqrt(k_t / m) [1/s].
+template <class Number>
+TALUS_HD Number tangential_dashpot(const Number& rate, const Number& effective_mass, Real time_step) {
+  // The dashpot sees the slip half a step late: from the whole of it a step on, it would swing and add energy. It
+  // takes half of it at most.
+  constexpr Real kShare = 0.5, kTangentialMass = Real(2) / 7;  // of a solid sphere that can turn, over its mass
+  if (!(time_step > 0)) return Number{};
+  return smaller(rate, Number{} + kShare * kTangentialMass / time_step) * effective_mass;
+}
+
+template <class Number>
+TALUS_HD Vector3<Number> tangential_part(const Vector3<Number>& v, const Vector3<Number>& normal) {
+  return v - dot(v, normal) * normal;
 }
 
 /// Coulomb friction of spheres. Linear law: a spring of constant stiffness. Hertz: 8 G* a, a = contact radius (Mindlin,
@@ -38,28 +76,29 @@ struct SphereFriction {
   using Patch = NoPatch;
 
   TALUS_HD FrictionForces apply(const ContactView& contacts, int c, const FrictionContact& contact, NoPatch) const {
-    const Vec3 normal = contact.elastic.normal;
-    const auto tangential = [&](const Vec3& v) { return v - dot(v, normal) * normal; };
-    TangentialSpring spring{carried_spring<Law>(contacts.tangential_displacement[c], contacts.depth[c], contact),
-                            contact.pair.tangential_stiffness_ratio * contact.elastic.stiffness, 0};
-    spring.damping = std::min(2 * contact.pair.sphere_damping * std::sqrt(contact.effective_mass * spring.stiffness),
-                              largest_dashpot(contact));
+    const Real stiffness = contact.pair.tangential_stiffness_ratio * contact.elastic.stiffness;
+    const SphereSpringForce<Real> spring = spring_force<Law>(
+        contacts.tangential_displacement[c], slip(contacts, c, contact), stiffness,
+        tangential_dashpot(2 * contact.pair.sphere_damping * std::sqrt(stiffness / contact.effective_mass),
+                           contact.effective_mass, contact.time_step),
+        contact.time_step);
     FrictionForces friction;
-    friction.force = spring.force(normal, tangential(contact.mean.velocity), tangential(contact.predicted.velocity),
-                                  contact.time_step, contact.pair.friction_coefficient * contact.normal_load());
-    friction.energy = Real(0.5) * spring.stiffness * norm_squared(spring.displacement);
-    contacts.tangential_displacement[c] = spring.displacement;
+    friction.force = spring.force;
+    friction.energy = spring.energy;
     return friction;
   }
 
   TALUS_HD static void forget(const ContactView& contacts, int c) { contacts.tangential_displacement[c] = Vec3{}; }
 
  private:
-  /// The dashpot sees the slip half a step late: from the whole of it a step on, it would swing and add energy. It
-  /// takes half of it at most [N s/m].
-  TALUS_HD static Real largest_dashpot(const FrictionContact& contact) {
-    constexpr Real kShare = 0.5, kTangentialMass = Real(2) / 7;  // of a solid sphere that can turn, over its mass
-    return contact.time_step > 0 ? kShare * kTangentialMass * contact.effective_mass / contact.time_step : 0;
+  TALUS_HD static SphereSlip<Real> slip(const ContactView& contacts, int c, const FrictionContact& contact) {
+    const Vec3& normal = contact.elastic.normal;
+    return {normal,
+            contacts.depth[c] / contact.elastic.depth,
+            contact.time_step * dot(contact.mean_spin, normal),
+            tangential_part(contact.mean.velocity, normal),
+            tangential_part(contact.predicted.velocity, normal),
+            contact.pair.friction_coefficient * contact.normal_load()};
   }
 };
 

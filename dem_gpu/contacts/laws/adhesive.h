@@ -16,7 +16,8 @@ struct Adhesive : Law {
   static constexpr bool kIsAdhesive = true;
 
   /// `work`: of adhesion, w [J/m2].
-  TALUS_HD static Real attraction(Real work, Real effective_radius) {
+  template <class Number>
+  TALUS_HD static Number attraction(const Number& work, const Number& effective_radius) {
     return 2 * std::numbers::pi_v<Real> * work * effective_radius;
   }
 };

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
-
 #include "dem_gpu/core/host_device.h"
 #include "dem_gpu/core/real.h"
+#include "dem_gpu/core/real_lanes.h"
 
 namespace dem_gpu {
 
@@ -12,12 +11,16 @@ namespace dem_gpu {
 struct LinearSpring {
   Real stiffness = 0;  // k_n [N/m]
 
-  TALUS_HD Real normal_force(Real overlap, Real /*effective_radius*/, Real /*effective_modulus*/) const {
+  template <class Number>
+  TALUS_HD Number normal_force(const Number& overlap, const Number& /*effective_radius*/,
+                               const Number& /*effective_modulus*/) const {
     return stiffness * overlap;
   }
   /// dF/d(overlap) [N/m]
-  TALUS_HD Real tangent_stiffness(Real /*overlap*/, Real /*effective_radius*/, Real /*effective_modulus*/) const {
-    return stiffness;
+  template <class Number>
+  TALUS_HD Number tangent_stiffness(const Number& /*overlap*/, const Number& /*effective_radius*/,
+                                    const Number& /*effective_modulus*/) const {
+    return Number{} + stiffness;
   }
   static constexpr Real kExponent = 1;  // F ~ overlap^n
   static constexpr bool kIsAdhesive = false;

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "dem_gpu/contacts/contact_kernel.h"
+#include "dem_gpu/contacts/friction/rolling_friction.h"
+#include "dem_gpu/contacts/normal_damping.h"
+#include "dem_gpu/core/vec3_lanes.h"
+
+namespace dem_gpu {
+
+/// Touching pairs of spheres side by side. The normal is central, so that elastic forces turn nothing, an impulse along
+/// it meets 1 / (1/m_a + 1/m_b), and the torques of friction are the two levers times normal x force.
+struct PairRows {
+  RowLanes contact, a, b;
+};
+
+/// Properties of the pairs of materials.
+struct PairLanes {
+  RealLanes friction_coefficient, effective_modulus, damping, tangential_stiffness_ratio, tangential_damping,
+      rolling_friction, adhesion;
+};
+
+TALUS_HD inline PairLanes pair_lanes(const ContactScene& scene, const PairRows& rows) {
+  const auto property = [&](Real PairProperties::*of) {
+    RealLanes lanes = RealLanes{} + scene.pairs[0].*of;
+    if (scene.material_count > 1)
+      for (int i = 0; i < kRealLanes; ++i)
+        lane(lanes, i) = scene.pair(scene.bodies.material[rows.a[i]], scene.bodies.material[rows.b[i]]).*of;
+    return lanes;
+  };
+  return {property(&PairProperties::friction_coefficient),
+          property(&PairProperties::effective_modulus),
+          property(&PairProperties::sphere_damping),
+          property(&PairProperties::tangential_stiffness_ratio),
+          property(&PairProperties::sphere_tangential_damping),
+          property(&PairProperties::rolling_friction),
+          property(&PairProperties::adhesion)};
+}
+
+/// Where and how deep the spheres touch.
+struct SphereTouch {
+  Vector3<RealLanes> normal;   // from a to b
+  RealLanes curvature;         // 1 / distance of the centres [1/m]
+  RealLanes depth;             // [m]
+  RealLanes depth_before;      // at the end of the last step [m]
+  RealLanes inverse_depth;     // [1/m]
+  RealLanes lever_a, lever_b;  // from the centres to the contact point, along the normal [m]
+  RealLanes effective_radius;  // [m]
+  Vector3<RealLanes> point;    // [m]
+
+  TALUS_HD static SphereTouch of(const ContactScene& scene, const PairRows& rows) {
+    const BodyView& bodies = scene.bodies;
+    const Vector3<RealLanes> a = gather(bodies.position, rows.a), offset = gather(bodies.position, rows.b) - a;
+    const RealLanes radius_a = gather(bodies.bounding_radius, rows.a),
+                    radius_b = gather(bodies.bounding_radius, rows.b);
+    SphereTouch touch;
+    const RealLanes distance = norm(offset);
+    const auto is_apart = distance > Real(0);  // spheres on one spot part along z
+    touch.curvature = select(is_apart, Real(1) / distance, RealLanes{});
+    touch.normal = touch.curvature * offset;
+    touch.normal.z = select(is_apart, touch.normal.z, RealLanes{} + Real(1));
+    touch.depth = radius_a - (distance - radius_b);
+    touch.depth_before = gather(scene.contacts.depth, rows.contact);
+    touch.inverse_depth = Real(1) / touch.depth;
+    touch.lever_a = radius_a - Real(0.5) * touch.depth;
+    touch.lever_b = radius_b - Real(0.5) * touch.depth;
+    touch.effective_radius = radius_a * radius_b / (radius_a + radius_b);
+    touch.point = a + touch.lever_a * touch.normal;
+    return touch;
+  }
+};
+
+/// Of a relative to b: of the centres, of the surfaces at the contact point (tangential part) and of turning; mean spin
+/// of both about the normal [m/s], [rad/s].
+struct SphereVelocities {
+  Vector3<RealLanes> relative, slip, spin;
+  RealLanes twist_rate;
+
+  TALUS_HD static SphereVelocities of(const Vec3* velocity, const Vec3* spin, const PairRows& rows,
+                                      const SphereTouch& touch) {
+    const Vector3<RealLanes> spin_a = gather(spin, rows.a), spin_b = gather(spin, rows.b);
+    SphereVelocities found;
+    found.relative = gather(velocity, rows.a) - gather(velocity, rows.b);
+    found.slip = tangential_part(found.relative, touch.normal) +
+                 cross(touch.lever_a * spin_a + touch.lever_b * spin_b, touch.normal);
+    found.spin = spin_a - spin_b;
+    found.twist_rate = Real(0.5) * dot(spin_a + spin_b, touch.normal);
+    return found;
+  }
+};
+
+/// What a touching contact becomes.
+struct SphereResponse {
+  RealLanes stiffness, inverse_mass, effective_mass, adhesion;
+  RealLanes rate;                       // root of stiffness / effective mass [1/s]
+  RealLanes energy;                     // stored elastic energy of this depth [J]
+  RealLanes push;                       // mean force along the normal, positive when repulsive [N]
+  RealLanes owed;                       // kick left to the next step [m/s]
+  Vector3<RealLanes> friction, couple;  // on a [N], [N m]
+  RealLanes tangential_energy;          // in the springs [J]
+  Vector3<RealLanes> sliding, rolling;  // lengths of the springs [m]
+};
+
+/// The push along the normal: by series for all, by sub-steps for those lanes that need them.
+template <class Law>
+TALUS_HD void find_push(const ContactScene& scene, const PairRows& rows, const SphereTouch& touch,
+                        const PairLanes& pair, const SphereVelocities& mean, const SphereVelocities& predicted,
+                        RealLanes force, SphereResponse& response) {
+  const Real step = scene.step.length;
+  const RealLanes& inverse_mass = response.inverse_mass;
+  const RealLanes mean_speed = dot(mean.relative, touch.normal);
+  const RealLanes turning = -touch.curvature * (norm_squared(mean.relative) - mean_speed * mean_speed);
+  const RealLanes damping = Real(2) * pair.damping * response.rate;
+  const auto is_verlet = is_left_to_verlet<Law>(damping, response.adhesion, response.rate, step);
+  const auto is_first = (touch.depth_before == Real(0)) & (touch.depth <= kTouchMargin * step * mean_speed);
+  RealLanes owed = gather(scene.contacts.owed_kick, rows.contact);
+  const RealLanes contact_before = -dot(gather(scene.contacts.force, rows.contact), touch.normal) * inverse_mass;
+  if (scene.step.is_first) owed = select(is_first | is_verlet, owed, step / 2 * contact_before);
+  const RealLanes by_others =
+      select(is_first, RealLanes{}, (2 / step) * (dot(predicted.relative, touch.normal) - mean_speed) + contact_before);
+  const NormalStart<RealLanes> start{touch.depth,
+                                     touch.inverse_depth,
+                                     mean_speed + step / 2 * by_others - owed,
+                                     by_others + turning,
+                                     force * inverse_mass,
+                                     damping,
+                                     response.adhesion * inverse_mass};
+  NormalSeries<Law, RealLanes> series;
+  const NormalKick<RealLanes> orbit = series.advance(start, step);
+  RealLanes taken = owed + orbit.mean;
+  response.owed = orbit.kick - orbit.mean;
+  const unsigned is_other = ~bits_of(series.is_good()) | bits_of(is_first) | bits_of(is_verlet);
+  for (int i = 0; i < kRealLanes; ++i) {
+    if ((is_other >> i & 1) == 0) continue;
+    const SphereMotion motion{
+        {lane(start.depth, i), lane(start.per_depth, i), lane(start.speed, i), lane(start.acceleration, i),
+         lane(start.elastic, i), lane(start.damping, i), lane(start.adhesion, i)},
+        lane(mean_speed, i),
+        lane(owed, i),
+        (bits_of(is_first) >> i & 1) != 0,
+        (bits_of(is_verlet) >> i & 1) != 0};
+    const SphereKick kick = sphere_kick<Law>(motion, step);
+    lane(taken, i) = kick.taken;
+    lane(response.owed, i) = kick.owed;
+  }
+  response.push = response.effective_mass * taken * (1 / step);
+}
+
+template <class Law, class Friction>
+TALUS_HD void find_friction(const ContactScene& scene, const PairRows& rows, const SphereTouch& touch,
+                            const PairLanes& pair, const SphereVelocities& mean, const SphereVelocities& predicted,
+                            SphereResponse& response) {
+  const Real step = scene.step.length;
+  // What presses the surfaces together. The mean force over a step may pull, to make up for the step before.
+  const RealLanes load = larger(RealLanes{}, response.push + response.adhesion);
+  const RealLanes stiffness = pair.tangential_stiffness_ratio * response.stiffness;
+  SphereSlip<RealLanes> slip{touch.normal,           touch.depth_before * touch.inverse_depth,
+                             step * mean.twist_rate, mean.slip,
+                             predicted.slip,         pair.friction_coefficient * load};
+  response.sliding = gather(scene.contacts.tangential_displacement, rows.contact);
+  const SphereSpringForce<RealLanes> sliding = spring_force<Law>(
+      response.sliding, slip, stiffness,
+      tangential_dashpot(Real(2) * pair.tangential_damping * response.rate, response.effective_mass, step), step);
+  response.friction = sliding.force;
+  response.tangential_energy = sliding.energy;
+  if constexpr (Friction::kHasCouple) {
+    const RollingSpring<RealLanes> spring =
+        rolling_spring(pair.rolling_friction, response.stiffness, response.effective_mass);
+    slip.mean = touch.effective_radius * tangential_part(mean.spin, touch.normal);
+    slip.predicted = touch.effective_radius * tangential_part(predicted.spin, touch.normal);
+    slip.limit = pair.rolling_friction * load;
+    response.rolling = gather(scene.contacts.turning_displacement, rows.contact);
+    const SphereSpringForce<RealLanes> rolling =
+        spring_force<Law>(response.rolling, slip, spring.stiffness, spring.damping, step);
+    response.couple = touch.effective_radius * rolling.force;
+    response.tangential_energy += rolling.energy;
+  }
+}
+
+/// Not part of a kernel, nor is write_spheres, so that motion is the same with a work record and without.
+template <class Law, class Friction>
+TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void respond_to_touch(const Law& law, const ContactScene& scene,
+                                                                const PairRows& rows, SphereTouch& touch,
+                                                                SphereResponse& response) {
+  const BodyView& bodies = scene.bodies;
+  touch = SphereTouch::of(scene, rows);
+  const PairLanes pair = pair_lanes(scene, rows);
+  const SphereVelocities mean = SphereVelocities::of(bodies.mean_velocity, bodies.mean_angular_velocity, rows, touch);
+  const SphereVelocities predicted =
+      SphereVelocities::of(bodies.predicted_velocity, bodies.predicted_angular_velocity, rows, touch);
+  response.inverse_mass = gather(bodies.inverse_mass, rows.a) + gather(bodies.inverse_mass, rows.b);
+  response.effective_mass = Real(1) / response.inverse_mass;
+  response.stiffness = law.tangent_stiffness(touch.depth, touch.effective_radius, pair.effective_modulus);
+  response.rate = square_root(response.stiffness * response.inverse_mass);
+  const RealLanes force = law.normal_force(touch.depth, touch.effective_radius, pair.effective_modulus);
+  response.energy = force * touch.depth * (1 / (Law::kExponent + 1));
+  response.adhesion = RealLanes{};
+  if constexpr (Law::kIsAdhesive) {
+    response.adhesion = Law::attraction(pair.adhesion, touch.effective_radius);
+    response.energy -= response.adhesion * touch.depth;
+  }
+  response.push = force - response.adhesion;
+  if (scene.step.length > 0)
+    find_push<Law>(scene, rows, touch, pair, mean, predicted, force, response);
+  else  // forces of a start, before any step: the elastic one alone
+    response.owed = gather(scene.contacts.owed_kick, rows.contact);
+  if constexpr (Friction::kEnabled) find_friction<Law, Friction>(scene, rows, touch, pair, mean, predicted, response);
+}
+
+/// Few contacts of a bed are at their worst: the others write nothing.
+TALUS_HD inline void write_peaks(const ContactScene& scene, const PairRows& rows, const SphereTouch& touch,
+                                 const SphereResponse& response) {
+  const ContactView& contacts = scene.contacts;
+  const RowLanes& c = rows.contact;
+  const RealLanes overlap = gather(contacts.peak_overlap, c), rate = gather(contacts.peak_rate, c);
+  const RealLanes diameter = smaller(gather(scene.bodies.diameter, rows.a), gather(scene.bodies.diameter, rows.b));
+  if (bits_of(touch.depth > overlap * diameter) != 0)
+    scatter(contacts.peak_overlap, c, larger(overlap, touch.depth / diameter));
+  const RealLanes rate_now = response.stiffness * response.inverse_mass;
+  if (bits_of(rate_now > rate) != 0) scatter(contacts.peak_rate, c, larger(rate, rate_now));
+}
+
+template <class Friction>
+TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void write_spheres(const ContactScene& scene, const PairRows& rows,
+                                                             const SphereTouch& touch, const SphereResponse& response) {
+  const ContactView& contacts = scene.contacts;
+  const RowLanes& c = rows.contact;
+  Vector3<RealLanes> force = -response.push * touch.normal, torque_a, torque_b;
+  if constexpr (Friction::kEnabled) {
+    force += response.friction;
+    const Vector3<RealLanes> turning = cross(touch.normal, response.friction);
+    torque_a = touch.lever_a * turning;
+    torque_b = touch.lever_b * turning;
+    scatter(contacts.tangential_displacement, c, response.sliding);
+  }
+  if constexpr (Friction::kHasCouple) {
+    torque_a += response.couple;
+    torque_b -= response.couple;
+    scatter(contacts.turning_displacement, c, response.rolling);
+  }
+  scatter(contacts.force, c, force);
+  scatter(contacts.torque_a, c, torque_a);
+  scatter(contacts.torque_b, c, torque_b);
+  scatter(contacts.point, c, touch.point);
+  scatter(contacts.depth, c, touch.depth);
+  scatter(contacts.owed_kick, c, response.owed);
+  write_peaks(scene, rows, touch, response);
+}
+
+}  // namespace dem_gpu
