@@ -57,8 +57,9 @@ inline RealLanes select(const LaneMask& mask, const RealLanes& first, const Real
 inline RealLanes magnitude(const RealLanes& a) { return a < 0.0 ? -a : a; }
 inline RealLanes smaller(const RealLanes& a, const RealLanes& b) { return a < b ? a : b; }
 inline RealLanes larger(const RealLanes& a, const RealLanes& b) { return a > b ? a : b; }
+// By address: GCC 12 reads the wrong lane of a constant vector under -fsanitize=undefined where the index varies.
 inline Real& lane(RealLanes& a, int i) { return reinterpret_cast<Real*>(&a)[i]; }
-inline Real lane(const RealLanes& a, int i) { return a[i]; }
+inline Real lane(const RealLanes& a, int i) { return reinterpret_cast<const Real*>(&a)[i]; }
 inline RealLanes load_lanes_at(const Real* values) {
   RealLanes lanes;
   __builtin_memcpy(&lanes, values, sizeof(lanes));
@@ -84,9 +85,13 @@ inline unsigned bits_of(const LaneMask& mask) {
   return static_cast<unsigned char>(__builtin_ia32_cvtq2mask512((LongLanes)mask));
 #elif defined(TALUS_AVX)
   return static_cast<unsigned>(__builtin_ia32_movmskpd256((RealLanes)mask));
+#elif defined(__SSE2__) && !defined(__clang__)
+  return static_cast<unsigned>(__builtin_ia32_movmskpd((RealLanes)mask));
 #else
+  long long lanes[kRealLanes];
+  __builtin_memcpy(lanes, &mask, sizeof(lanes));
   unsigned bits = 0;
-  for (int i = 0; i < kRealLanes; ++i) bits |= (mask[i] != 0 ? 1u : 0u) << i;
+  for (int i = 0; i < kRealLanes; ++i) bits |= (lanes[i] != 0 ? 1u : 0u) << i;
   return bits;
 #endif
 }
