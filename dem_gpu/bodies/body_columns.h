@@ -41,6 +41,7 @@ struct BodyColumns {
   DeviceVector<Vec3> predicted_angular_velocity;  // [rad/s]
   DeviceVector<Vec3> mean_velocity;               // [m/s]
   DeviceVector<Vec3> mean_angular_velocity;       // [rad/s]
+  DeviceVector<Real> contact_share;               // 1 / contacts when forces were last summed, at most 1 [-]
   DeviceVector<Vec3> listed_position;             // when the neighbour list was built [m]
   /// With pairs of polyhedra that wait: no point of the body has moved further than this since time 0, step by step
   /// [m].
@@ -70,6 +71,7 @@ struct BodyView {
   Vec3* predicted_angular_velocity;
   Vec3* mean_velocity;
   Vec3* mean_angular_velocity;
+  Real* contact_share;
   Vec3* listed_position;
   Real* travel;
   Real* listed_displacement;
@@ -104,6 +106,7 @@ inline BodyView view(const BodyConstants& constants, BodyColumns& columns) {
           pointer(columns.predicted_angular_velocity),
           pointer(columns.mean_velocity),
           pointer(columns.mean_angular_velocity),
+          pointer(columns.contact_share),
           pointer(columns.listed_position),
           pointer(columns.travel),
           pointer(columns.listed_displacement)};

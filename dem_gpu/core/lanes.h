@@ -5,11 +5,8 @@
 #include <type_traits>
 
 #include "dem_gpu/core/host_device.h"
+#include "dem_gpu/core/intrinsics.h"
 #include "dem_gpu/core/real.h"
-
-#if !defined(__CUDACC__) && defined(__AVX__)
-#include <immintrin.h>
-#endif
 
 // Eight numbers of contact geometry worked on together: the corners of a polygon, or eight vertices of a part. One
 // vector register on the CPU (the compiler splits it where registers are shorter), an array on the GPU. Written with
@@ -160,8 +157,8 @@ inline WideLanes widened(const Lanes& a) { return __builtin_convertvector(a, Wid
 inline Lanes rounded(const WideLanes& a) { return __builtin_convertvector(a, Lanes); }
 #else
 using LaneIndex = WideIndex;
-inline const WideLanes& widened(const Lanes& a) { return a; }
-inline const Lanes& rounded(const WideLanes& a) { return a; }
+inline WideLanes widened(const Lanes& a) { return a; }
+inline Lanes rounded(const WideLanes& a) { return a; }
 #endif
 
 template <class SomeLanes>

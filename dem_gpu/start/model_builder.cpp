@@ -131,6 +131,7 @@ void set_bodies(const Scene& scene, const PreparedShapes& prepared, BodyConstant
        {&columns.force, &columns.torque, &columns.predicted_velocity, &columns.predicted_angular_velocity,
         &columns.mean_velocity, &columns.mean_angular_velocity, &columns.listed_position})
     column->assign(n, Vec3{});
+  columns.contact_share.assign(n, Real(1));
   columns.listed_displacement.assign(n, Real(0));
   std::vector<Vec3> force(n);
   for (std::size_t i = 0; i < n; ++i) force[i] = mass[i] * scene.gravity;

@@ -30,7 +30,7 @@ dem_gpu::Scene swarm() {
     body.shape = i % 5 == 0 ? 1 : 0;
     body.scale = body.shape == 1 ? 0.35 : 1;
     body.position = 2.2 * place;
-    body.orientation = normalized({uniform(random), uniform(random), uniform(random), uniform(random)});
+    body.orientation = dem_gpu::normalized({uniform(random), uniform(random), uniform(random), uniform(random)});
     body.velocity = -3 * place + Vec3{uniform(random), uniform(random), uniform(random)};
     body.angular_velocity = 4 * Vec3{uniform(random), uniform(random), uniform(random)};
     scene.bodies.push_back(body);
