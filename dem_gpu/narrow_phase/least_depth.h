@@ -15,13 +15,45 @@ struct ShrinkingPolygon {
   Polygon piece;
   bool is_empty = false;
 
-  /// Keeps what lies in the cell. A piece wholly on the cell's boundary stays only if `owns_ties`.
-  TALUS_HD void keep(const LocalHalfSpace& cell, bool owns_ties) {
+  /// Keeps what lies in the cell. A piece wholly on the cell's boundary stays only if `owns_ties`. False, and all is
+  /// kept, if what lies there has more corners than a polygon holds: HalvesToCut.
+  TALUS_HD bool keep(const LocalHalfSpace& cell, bool owns_ties) {
     const Lanes margins = depths_below(cell, piece.corners);
+    const auto& order = cut_order(piece, margins);
+    if (outgrows(order)) return false;
     const bool is_flush = lanes_above(margins, Lanes{}) == 0;
     is_empty = is_flush && !(owns_ties && corners_inside(piece, margins) == piece.all());
-    piece = cut(piece, margins, cut_order(piece, margins));
+    piece = cut(piece, margins, order);
+    return true;
   }
+};
+
+/// Halves of a polygon that outgrew its lanes, put aside until the rest of it is done, each with the cuts left to it.
+class HalvesToCut {
+ public:
+  /// Goes on with one half of the polygon; the other one waits. If there is no room for it the polygon is truncated.
+  TALUS_HD void split(ShrinkingPolygon& polygon, std::uint64_t cuts_left) {
+    if (count_ == kMost) {
+      polygon.piece.is_truncated = true;
+      return;
+    }
+    cuts_left_[count_] = cuts_left;
+    half_[count_++] = half_of(polygon.piece, true);
+    polygon.piece = half_of(polygon.piece, false);
+  }
+  /// False if no half waits.
+  TALUS_HD bool next(ShrinkingPolygon& polygon, std::uint64_t& cuts_left) {
+    if (count_ == 0) return false;
+    polygon = {half_[--count_]};
+    cuts_left = cuts_left_[count_];
+    return true;
+  }
+
+ private:
+  static constexpr int kMost = 8;
+  ScratchArray<Polygon, kMost> half_;
+  ScratchArray<std::uint64_t, kMost> cuts_left_;
+  int count_ = 0;
 };
 
 /// Planes that a depth field may have near one polygon, those of terms that are one plane there among them; and terms
@@ -97,11 +129,18 @@ TALUS_HD TALUS_DEVICE_CALL void visit_cells(const Polygon& polygon, const LocalH
   for (std::uint64_t standing = contenders.standing(); standing != 0; standing &= standing - 1) {
     const int k = lowest_bit(standing);
     ShrinkingPolygon cell{polygon};
-    for (std::uint64_t left = contenders.cutting(k); left != 0 && !cell.is_empty; left &= left - 1) {
-      const int m = lowest_bit(left);
-      cell.keep(lower_side(planes[contending[k]], planes[contending[m]]), k < m);
-    }
-    if (!cell.is_empty) visitor(cell.piece, planes[contending[k]]);
+    HalvesToCut halves;
+    std::uint64_t left = contenders.cutting(k);
+    do {
+      while (left != 0 && !cell.is_empty && !cell.piece.is_truncated) {
+        const int m = lowest_bit(left);
+        if (cell.keep(lower_side(planes[contending[k]], planes[contending[m]]), k < m))
+          left &= left - 1;
+        else
+          halves.split(cell, left);
+      }
+      if (!cell.is_empty) visitor(cell.piece, planes[contending[k]]);
+    } while (halves.next(cell, left));
   }
 }
 static_assert(kMostPlanesOnPolygon <= 256);
@@ -112,9 +151,18 @@ TALUS_HD TALUS_DEVICE_CALL void visit_every_cell(const Polygon& polygon, const L
                                                  Visitor&& visitor) {
   for (int k = 0; k < plane_count; ++k) {
     ShrinkingPolygon cell{polygon};
-    for (int m = 0; m < plane_count && !cell.is_empty; ++m)
-      if (m != k) cell.keep(lower_side(planes[k], planes[m]), k < m);
-    if (!cell.is_empty) visitor(cell.piece, planes[k]);
+    HalvesToCut halves;
+    std::uint64_t m = 0;
+    do {
+      while (m < static_cast<std::uint64_t>(plane_count) && !cell.is_empty && !cell.piece.is_truncated) {
+        const int other = static_cast<int>(m);
+        if (other == k || cell.keep(lower_side(planes[k], planes[other]), k < other))
+          ++m;
+        else
+          halves.split(cell, m);
+      }
+      if (!cell.is_empty) visitor(cell.piece, planes[k]);
+    } while (halves.next(cell, m));
   }
 }
 

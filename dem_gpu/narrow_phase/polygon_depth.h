@@ -198,7 +198,10 @@ TALUS_HD TALUS_DEVICE_CALL void add_depth(const Polygon& polygon, FieldOnPolygon
       const LocalHalfSpace* planes = here.term_plane.data() + here.term[level].first;
       const int chosen = choice[level];
       for (int k = 0; k < here.term[level].count && !shrinking.is_empty; ++k)
-        if (k != chosen) shrinking.keep(lower_side(planes[k], planes[chosen]), chosen < k);
+        if (k != chosen && !shrinking.keep(lower_side(planes[k], planes[chosen]), chosen < k)) {
+          sum.is_truncated = true;
+          return;
+        }
       if (shrinking.is_empty) break;
       here.plane[here.plane_count + level] = planes[chosen];
     }
@@ -225,15 +228,17 @@ class PolygonGrid {
     }
   }
 
-  /// The part of the polygon in cell (i, j). Cells share the lines between them, bit for bit.
-  TALUS_HD ShrinkingPolygon cell(const Polygon& polygon, int i, int j) const {
+  /// The part of the polygon in cell (i, j); false if it has more corners than fit. Cells share the lines between them,
+  /// bit for bit.
+  TALUS_HD bool cut_to_cell(ShrinkingPolygon& polygon, int i, int j) const {
     const int index[2] = {i, j};
-    ShrinkingPolygon shrinking{polygon};
-    for (int k = 0; k < 2 && !shrinking.is_empty; ++k) {
-      if (index[k] > 0) shrinking.keep({-axis_[k], -line(k, index[k])}, false);
-      if (index[k] < across_ - 1 && !shrinking.is_empty) shrinking.keep({axis_[k], line(k, index[k] + 1)}, true);
+    bool fits = true;
+    for (int k = 0; k < 2 && fits && !polygon.is_empty; ++k) {
+      if (index[k] > 0) fits = polygon.keep({-axis_[k], -line(k, index[k])}, false);
+      if (index[k] < across_ - 1 && fits && !polygon.is_empty)
+        fits = polygon.keep({axis_[k], line(k, index[k] + 1)}, true);
     }
-    return shrinking;
+    return fits;
   }
 
  private:
@@ -265,18 +270,11 @@ TALUS_HD bool add_depth_by_cells(const Polygon& polygon, const DepthField& field
   const PolygonGrid grid(polygon, normal, across);
   for (int i = 0; i < across; ++i)
     for (int j = 0; j < across; ++j) {
-      const ShrinkingPolygon cell = grid.cell(polygon, i, j);
-      if (cell.is_empty) continue;
-      if (cell.piece.is_truncated || !add_depth_at_once(cell.piece, field, normal, sum)) return false;
+      ShrinkingPolygon cell{polygon};
+      if (!grid.cut_to_cell(cell, i, j)) return false;
+      if (!cell.is_empty && !add_depth_at_once(cell.piece, field, normal, sum)) return false;
     }
   return true;
-}
-
-/// Adds a field over a polygon of many corners by halves, which have room for more; false if one does not fit.
-template <class Sum>
-TALUS_HD bool add_depth_by_halves(const Polygon& polygon, const DepthField& field, const LocalVec3& normal, Sum& sum) {
-  return polygon.count > 4 && add_depth_at_once(half_of(polygon, false), field, normal, sum) &&
-         add_depth_at_once(half_of(polygon, true), field, normal, sum);
 }
 
 /// Integrates a depth field over a polygon.
@@ -288,12 +286,14 @@ TALUS_HD TALUS_DEVICE_CALL Sum integrate_depth(const Polygon& polygon, const Dep
   empty.origin = MomentOrigin::at(polygon.corner(0));
   Sum sum = empty;
   if (add_depth_at_once(polygon, field, normal, sum)) return sum;
-  sum = empty;
-  if (add_depth_by_halves(polygon, field, normal, sum)) return sum;
+  // Halves have room for more corners.
   constexpr int kMostAcross = 32;
-  for (int across = 2; across <= kMostAcross; across *= 2) {
+  for (int across = 1; across <= kMostAcross; across *= 2) {
     sum = empty;
-    if (add_depth_by_cells(polygon, field, normal, across, sum)) return sum;
+    const bool fits = polygon.count > 4 ? add_depth_by_cells(half_of(polygon, false), field, normal, across, sum) &&
+                                              add_depth_by_cells(half_of(polygon, true), field, normal, across, sum)
+                                        : add_depth_by_cells(polygon, field, normal, across, sum);
+    if (fits) return sum;
   }
   sum.is_truncated = true;
   return sum;
