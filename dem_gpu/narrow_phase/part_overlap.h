@@ -39,7 +39,12 @@ struct CoplanarRule {
 
 /// What of a surface and a solid meets: the surface's faces with a piece inside, and the solid's planes that cut them.
 struct Meeting {
+  /// So many times the rounding of positions a piece must reach below each plane that cuts it: of a thinner overlap
+  /// some faces may be lost to rounding where others are not.
+  static constexpr LocalReal kClearDepth = 100;
+
   FaceSet faces, planes;
+  bool is_thin = false;
 };
 
 /// Pieces of a few faces, cut by one plane after the other. All of them by one plane before the next: the cuts of one
@@ -63,6 +68,14 @@ class CutPieces {
     LaneSet beyond = 0;
     for (int i = 0; i < count_; ++i) beyond |= lanes_above(Lanes{}, depths_below(plane, piece_[i].corners));
     return beyond != 0;
+  }
+
+  /// Does any piece reach deeper below the plane?
+  TALUS_HD TALUS_INLINE bool reaches_below(const LocalHalfSpace& plane, LocalReal depth) const {
+    const Lanes limit = every_lane<Lanes>(depth);
+    LaneSet below = 0;
+    for (int i = 0; i < count_; ++i) below |= lanes_above(depths_below(plane, piece_[i].corners), limit);
+    return below != 0;
   }
 
   /// Keeps what lies inside the plane. A piece that outgrows its lanes becomes two; false if there is no room for them.
@@ -135,12 +148,17 @@ TALUS_HD TALUS_DEVICE_CALL bool visit_surface_inside(const PartView& surface, co
         is_whole &= pieces.add(polygon, f);
       }
     }
+    FaceSet cutting;
     for (int k = 0; k < sides.plane_count && pieces.count() > 0; ++k) {
       const int f = sides.plane[k];
       if (!pieces.reaches_beyond(solid.planes[f])) continue;
       is_whole &= pieces.cut_all(solid.planes[f]);
-      meeting.planes.add(f);
+      cutting.add(f);
     }
+    meeting.planes.add(cutting);
+    for (int k = 0; k < sides.plane_count && pieces.count() > 0; ++k)
+      if (const int f = sides.plane[k]; cutting.has(f))
+        meeting.is_thin |= !pieces.reaches_below(solid.planes[f], Meeting::kClearDepth * coplanar.tolerance);
     for (int i = 0; i < pieces.count(); ++i) {
       meeting.faces.add(pieces.face(i));
       visitor(pieces.piece(i), pieces.face(i));
@@ -159,22 +177,25 @@ TALUS_HD inline FaceSet planes_of(const PartView& part, const FaceSet& faces) {
 
 /// The faces of a solid that bound its overlap with a surface of which all that is inside it has been visited: those
 /// whose planes cut that, and those with a corner inside the surface's own body. The other way round, only planes of
-/// the surface's faces that lie inside bound it, so that no other one need cut the solid's: `sides` loses those.
+/// the surface's faces that lie inside bound it, so that no other one need cut the solid's: `sides` loses those. Where
+/// rounding could have lost some, all bound.
 TALUS_HD TALUS_DEVICE_CALL inline FaceSet faces_that_bound(const PartView& solid, const PartView& surface,
                                                            const Meeting& met, const PartVertices& vertices,
                                                            PlaneSides& sides) {
-  const FaceSet cut_by = planes_of(surface, met.faces);
   std::uint64_t outside = 0;
+  for (int k = 0; k < sides.plane_count; ++k) outside |= sides.outside[k];
+  const std::uint64_t inside = ~outside & vertices.all();
+  const bool is_lost = met.faces.is_empty() && inside != 0 && inside != vertices.all();
+  if (met.is_thin || is_lost) return FaceSet::all();
+  const FaceSet cut_by = planes_of(surface, met.faces);
   int kept = 0;
   for (int k = 0; k < sides.plane_count; ++k) {
-    outside |= sides.outside[k];
     sides.outside[kept] = sides.outside[k];
     sides.plane[kept] = sides.plane[k];
     kept += static_cast<int>(cut_by.has(surface.faces[sides.plane[k]].plane));
   }
   sides.plane_count = kept;
   sides.fill_up();
-  const std::uint64_t inside = ~outside & vertices.all();
   FaceSet cutting;
   if (!met.faces.is_empty()) cutting = planes_of(solid, met.planes);
   FaceSet bounding;

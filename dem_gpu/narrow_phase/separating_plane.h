@@ -39,6 +39,7 @@ struct FaceSet {
   TALUS_HD static FaceSet all() { return {~std::uint64_t{0}, ~std::uint64_t{0}}; }
   TALUS_HD bool is_empty() const { return (low | high) == 0; }
   TALUS_HD bool has(int i) const { return ((i < 64 ? low : high) >> (i & 63) & 1) != 0; }
+  TALUS_HD void add(const FaceSet& more) { low |= more.low, high |= more.high; }
   TALUS_HD void add(int i) {
     const std::uint64_t bit = std::uint64_t{1} << (i & 63);
     low |= i < 64 ? bit : 0;
