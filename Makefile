@@ -29,7 +29,7 @@ $(BUILD)/CMakeCache.txt:
 	cmake -S . -B $(BUILD) -G Ninja -DTALUS_WARNINGS_AS_ERRORS=$(if $(CI),ON,OFF)
 
 engine: install  ## The engine alone: no PCL, CGAL, assimp or VTK
-	cmake --preset dem-cpu
+	cmake --preset dem-cpu -DTALUS_WARNINGS_AS_ERRORS=$(if $(CI),ON,OFF)
 	cmake --build --preset dem-cpu --parallel $(JOBS)
 
 test-engines: engine  ## Engine tests with OpenMP, and serial under the address and undefined-behaviour sanitizers
@@ -75,7 +75,7 @@ gpu-check:
 	@echo 'gpu-check: needs nvcc (CUDA 12.4 or newer; no GPU) to build the folder' >&2; exit 2
 else
 gpu-check: install  ## Build build-gpu-check/talus-gpu-check: carried to a GPU machine, its run.sh tests and times there (8 minutes)
-	cmake --preset dem-cpu
+	cmake --preset dem-cpu -DTALUS_WARNINGS_AS_ERRORS=$(if $(CI),ON,OFF)
 	cmake --build --preset dem-cpu --parallel $(JOBS) --target agreement
 	rm -rf build-gpu-check/reference
 	build-dem-cpu/bin/agreement --write build-gpu-check/reference

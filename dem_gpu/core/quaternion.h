@@ -22,7 +22,7 @@ TALUS_HD inline BasicQuaternion<Number> operator*(const BasicQuaternion<Number>&
 
 TALUS_HD inline Quaternion conjugate(const Quaternion& q) { return {q.w, -q.x, -q.y, -q.z}; }
 
-template <class Number>
+template <class Number = Real>
 TALUS_HD inline BasicQuaternion<Number> normalized(const BasicQuaternion<Number>& q) {
   const Number scale = 1 / square_root(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
@@ -41,7 +41,7 @@ struct BasicMat3 {
 };
 using Mat3 = BasicMat3<Real>;
 
-template <class Number>
+template <class Number = Real>
 TALUS_HD inline BasicMat3<Number> rotation_matrix(const BasicQuaternion<Number>& q) {
   const Number xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z;
   const Number wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;

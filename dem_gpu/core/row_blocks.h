@@ -43,7 +43,8 @@ struct RowBlock {
   RealLanes component() const {
     constexpr int n = kRealLanes;
     constexpr PickedLanes of_first([](int i) { return (kWidth * i + k) % (2 * n); });
-    constexpr PickedLanes joined([](int i) { return kWidth * i + k < 2 * n ? i : n + (kWidth == 3 ? (3 * i + k) % n : i); });
+    constexpr PickedLanes joined(
+        [](int i) { return kWidth * i + k < 2 * n ? i : n + (kWidth == 3 ? (3 * i + k) % n : i); });
     const RealLanes low = of_first.of(block[0], block[1]);
     return joined.of(low, kWidth == 3 ? block[2] : of_first.of(block[2], block[kWidth - 1]));
   }

@@ -57,9 +57,9 @@ TEST(CagedSphere, ComesToRest) {
   for (const auto& [neighbours, steps_per_contact] : {std::pair{6, 10.0}, std::pair{12, 20.0}})
     for (const Vec3& spin : {Vec3{0, 0, 0.5}, Vec3{0.3, -0.2, 0.4}}) {
       Simulation simulation(cage(neighbours, steps_per_contact, spin));
-      simulation.advance(400);
+      simulation.advance(1000);
       const auto end = simulation.snapshot();
-      std::printf("  %d neighbours: %.1e of the spin is left after 400 steps\n", neighbours,
+      std::printf("  %d neighbours: %.1e of the spin is left after 1000 steps\n", neighbours,
                   norm(end.angular_velocity[0]) / norm(spin));
       EXPECT_LT(norm(end.angular_velocity[0]), 1e-3 * norm(spin));
       EXPECT_LT(norm(end.velocity[0]), 1e-3 * kRadius * norm(spin));
