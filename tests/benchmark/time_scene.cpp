@@ -43,6 +43,27 @@ struct Options {
 
 constexpr int kResettlingSteps = 500;
 
+double number(const std::string& name, const std::string& value) {
+  std::size_t end = 0;
+  double found = 0;
+  try {
+    found = std::stod(value, &end);
+  } catch (const std::logic_error&) {
+    end = 0;
+  }
+  if (end == 0 || end != value.size() || !(found >= 0))
+    throw std::invalid_argument(name + " takes a number of 0 or more, not '" + value + "'");
+  return found;
+}
+
+int count(const std::string& name, const std::string& value) { return static_cast<int>(number(name, value)); }
+
+benchmark_scenes::Law law(const std::string& value) {
+  if (value == "volume") return benchmark_scenes::Law::overlap_volume;
+  if (value == "depth") return benchmark_scenes::Law::depth_potential;
+  throw std::invalid_argument("--law takes depth or volume, not '" + value + "'");
+}
+
 Options parsed(int argc, char** argv) {
   if (argc < 2) throw std::invalid_argument("no NAME");
   Options options;
@@ -60,22 +81,21 @@ Options parsed(int argc, char** argv) {
     if (++i == argc) throw std::invalid_argument(name + " needs a value");
     const std::string value = argv[i];
     if (name == "--law")
-      options.of_scene.law =
-          value == "volume" ? benchmark_scenes::Law::overlap_volume : benchmark_scenes::Law::depth_potential;
+      options.of_scene.law = law(value);
     else if (name == "--bodies")
-      options.of_scene.bodies = std::stoi(value);
+      options.of_scene.bodies = count(name, value);
     else if (name == "--overlap")
-      options.of_scene.flat_overlap = std::stod(value);
+      options.of_scene.flat_overlap = number(name, value);
     else if (name == "--steps-per-contact")
-      options.of_scene.steps_per_contact = std::stod(value);
+      options.of_scene.steps_per_contact = number(name, value);
     else if (name == "--settle")
-      options.settle = std::stod(value);
+      options.settle = number(name, value);
     else if (name == "--window")
-      options.window = std::stod(value);
+      options.window = number(name, value);
     else if (name == "--windows")
-      options.windows = std::stoi(value);
+      options.windows = count(name, value);
     else if (name == "--tiles")
-      options.tiles = std::stoi(value);
+      options.tiles = count(name, value);
     else if (name == "--keep")
       options.keep = value;
     else

@@ -37,8 +37,8 @@ std::vector<Vec3> directions(int neighbours) {
 }
 
 /// Fixed spheres pressed on a free one that spins.
-Scene cage(int neighbours, double steps_per_contact, const Vec3& spin) {
-  Scene scene = empty_scene(0.1, 0.5);
+Scene cage(int neighbours, double restitution, double steps_per_contact, const Vec3& spin) {
+  Scene scene = empty_scene(restitution, 0.5);
   scene.gravity = {};
   scene.shapes = {dem_gpu::sphere_shape("ball", kRadius)};
   scene.bodies.push_back(body_at(0, {}));
@@ -53,14 +53,18 @@ Scene cage(int neighbours, double steps_per_contact, const Vec3& spin) {
 }
 
 TEST(CagedSphere, ComesToRest) {
-  // Twelve fixed neighbours are four times as stiff as one: the engine's own step is then what they stand.
-  for (const auto& [neighbours, steps_per_contact] : {std::pair{6, 10.0}, std::pair{12, 20.0}})
+  struct Held {
+    int neighbours;
+    double restitution, steps_per_contact;
+  };
+  for (const auto& [neighbours, restitution, steps_per_contact] :
+       {Held{6, 0.1, 10}, Held{12, 0.5, 10}, Held{12, 0.3, 20}})
     for (const Vec3& spin : {Vec3{0, 0, 0.5}, Vec3{0.3, -0.2, 0.4}}) {
-      Simulation simulation(cage(neighbours, steps_per_contact, spin));
+      Simulation simulation(cage(neighbours, restitution, steps_per_contact, spin));
       simulation.advance(1000);
       const auto end = simulation.snapshot();
-      std::printf("  %d neighbours: %.1e of the spin is left after 1000 steps\n", neighbours,
-                  norm(end.angular_velocity[0]) / norm(spin));
+      std::printf("  %d neighbours, restitution %.1f: %.1e of the spin is left after 1000 steps\n", neighbours,
+                  restitution, norm(end.angular_velocity[0]) / norm(spin));
       EXPECT_LT(norm(end.angular_velocity[0]), 1e-3 * norm(spin));
       EXPECT_LT(norm(end.velocity[0]), 1e-3 * kRadius * norm(spin));
       EXPECT_LT(norm(end.position[0]), 1e-3 * kPressedIn);
