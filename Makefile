@@ -7,7 +7,7 @@ CUDA_ARCHITECTURES ?= 90
 NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
 STAGES := talus talus-digitize talus-generate talus-family talus-decompose talus-catalog talus-simulate talus-post
 
-.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy study gpu-check instruction-counts record-instruction-counts peers exact-pairs large-mesh large-cloud fuzz decomposition format check-format clean
+.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy study gpu-check gpu-test kernel-report instruction-counts record-instruction-counts peers exact-pairs large-mesh large-cloud fuzz decomposition format check-format clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -29,7 +29,7 @@ $(BUILD)/CMakeCache.txt:
 	cmake -S . -B $(BUILD) -G Ninja -DTALUS_WARNINGS_AS_ERRORS=$(if $(CI),ON,OFF)
 
 engine: install  ## The engine alone: no PCL, CGAL, assimp or VTK
-	cmake --preset dem-cpu
+	cmake --preset dem-cpu -DTALUS_WARNINGS_AS_ERRORS=$(if $(CI),ON,OFF)
 	cmake --build --preset dem-cpu --parallel $(JOBS)
 
 test-engines: engine  ## Engine tests with OpenMP, and serial under the address and undefined-behaviour sanitizers
@@ -70,7 +70,32 @@ study: install $(BUILD)/CMakeCache.txt  ## How many parts a rock needs: SCAN=roc
 	SCAN="$(SCAN)" UNIT="$(UNIT)" BUILD=$(BUILD) workflows/studies/parts_per_rock.sh
 endif
 
-gpu-check: install  ## On a GPU machine: build the CUDA engine with its tests and run them
+ifeq ($(NVCC),)
+gpu-check:
+	@echo 'gpu-check: needs nvcc (CUDA 12.4 or newer; no GPU) to build the folder' >&2; exit 2
+else
+gpu-check: install  ## Build build-gpu-check/talus-gpu-check: carried to a GPU machine, its run.sh tests and times there (8 minutes)
+	cmake --preset dem-cpu -DTALUS_WARNINGS_AS_ERRORS=$(if $(CI),ON,OFF)
+	cmake --build --preset dem-cpu --parallel $(JOBS) --target agreement
+	rm -rf build-gpu-check/reference
+	build-dem-cpu/bin/agreement --write build-gpu-check/reference
+	PATH="$(dir $(NVCC)):$$PATH" cmake --preset dem-cuda-check
+	PATH="$(dir $(NVCC)):$$PATH" cmake --build --preset dem-cuda-check --parallel $(JOBS) --target gpu_check_folder
+	du -sh build-gpu-check/talus-gpu-check
+endif
+
+KERNELS := docs/results/kernels.md
+kernel-report:  ## Registers, stack and spills of the CUDA kernels for sm_90, into docs/results/kernels.md; needs nvcc, no GPU
+	@[ -n "$(NVCC)" ] || { echo 'kernel-report: needs nvcc' >&2; exit 2; }
+	PATH="$(dir $(NVCC)):$$PATH" cmake --preset dem-cuda -B build-kernel-report -DCMAKE_CUDA_ARCHITECTURES=90-real -DCMAKE_CUDA_FLAGS="-Xptxas -v"
+	PATH="$(dir $(NVCC)):$$PATH" cmake --build build-kernel-report --parallel $(JOBS) --target clean
+	PATH="$(dir $(NVCC)):$$PATH" cmake --build build-kernel-report --parallel $(JOBS) --target dem_engine > build-kernel-report/ptxas.log 2>&1 \
+	  || { tail -30 build-kernel-report/ptxas.log; exit 1; }
+	@{ printf '# CUDA kernels\n\nWritten by `make kernel-report` with %s for sm_90. Registers a thread; the stack is local memory, in bytes a thread, spills among it.\n\n' \
+	  "$$($(NVCC) --version | sed -n 's/.*release \([0-9.]*\),.*/CUDA \1/p')"; \
+	  workflows/kernel_report.sh build-kernel-report/ptxas.log; } > $(KERNELS).next && mv $(KERNELS).next $(KERNELS)
+
+gpu-test: install  ## On a GPU machine with the sources: build the CUDA engine with its tests and run them
 	cmake --preset dem-cuda -DCMAKE_CUDA_ARCHITECTURES=native
 	cmake --build --preset dem-cuda --parallel $(JOBS)
 	ctest --test-dir build-dem-cuda --output-on-failure -L 'unit|property|validation|backend'
@@ -128,4 +153,4 @@ check-format:  ## Fail if a source file is not formatted
 	git ls-files '*.cpp' '*.h' | xargs clang-format --dry-run -Werror
 
 clean:  ## Remove the build folders (not the demo's results)
-	rm -rf $(BUILD) build-dem-cpu build-dem-cpu-mixed build-dem-tbb build-dem-cuda build-asan
+	rm -rf $(BUILD) build-dem-cpu build-dem-cpu-mixed build-dem-tbb build-dem-cuda build-gpu-check build-kernel-report build-asan

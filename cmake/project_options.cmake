@@ -7,7 +7,7 @@ target_compile_features(project_options INTERFACE cxx_std_20)
 target_compile_definitions(project_options INTERFACE TALUS_VERSION="${PROJECT_VERSION}"
   $<$<STREQUAL:${TALUS_PRECISION},mixed>:TALUS_MIXED_PRECISION>)
 target_compile_options(project_options INTERFACE
-  # No object of a vector type crosses a library boundary, so its calling convention (-Wpsabi) does not matter.
+  # All that handles objects of vector types is compiled for the instructions of dem_engine, which says so to its users.
   # GCC 12 warns of overlapping copies in "literal" + std::string where there are none (GCC bug 105329).
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wno-restrict -Wno-psabi>
   # CMake 3.25 drops CUDA standard 20 in silence with CUDA 13, so it is given by hand.

@@ -30,9 +30,8 @@ std::optional<Real> depth_cap_of(const PolyhedralLaw& law) {
 template <class Integrals>
 void integrate(const ShapeView& shapes, const Pose& a, const Pose& b, SeparatingPlane* separating,
                Integrals& integrals) {
-  if (!integrate_bodies(shapes, kShapeA, kShapeB, a, b, separating, integrals))
-    throw std::runtime_error("overlap probe: a clipped face has more than " + std::to_string(kMaxPolygonCorners) +
-                             " corners, or more depths than fit");
+  if (!integrate_bodies(shapes, kShapeA, kShapeB, a, b, separating, integrals).is_whole)
+    throw std::runtime_error("overlap probe: a clipped face falls into more pieces, or has more depths, than fit");
 }
 
 template <class Law>

@@ -41,8 +41,12 @@ struct BodyColumns {
   DeviceVector<Vec3> predicted_angular_velocity;  // [rad/s]
   DeviceVector<Vec3> mean_velocity;               // [m/s]
   DeviceVector<Vec3> mean_angular_velocity;       // [rad/s]
+  DeviceVector<Real> contact_share;               // 1 / contacts when forces were last summed, at most 1 [-]
   DeviceVector<Vec3> listed_position;             // when the neighbour list was built [m]
-  DeviceVector<Real> listed_displacement;         // distance from it; infinite if the body has gone wrong [m]
+  /// With pairs of polyhedra that wait: no point of the body has moved further than this since time 0, step by step
+  /// [m].
+  DeviceVector<Real> travel;
+  DeviceVector<Real> listed_displacement;  // distance from it; infinite if the body has gone wrong [m]
 };
 
 struct BodyView {
@@ -67,7 +71,9 @@ struct BodyView {
   Vec3* predicted_angular_velocity;
   Vec3* mean_velocity;
   Vec3* mean_angular_velocity;
+  Real* contact_share;
   Vec3* listed_position;
+  Real* travel;
   Real* listed_displacement;
 
   /// Largest distance of a point from the centre that turning moves about; 0 for a sphere, which turns onto itself [m].
@@ -100,7 +106,9 @@ inline BodyView view(const BodyConstants& constants, BodyColumns& columns) {
           pointer(columns.predicted_angular_velocity),
           pointer(columns.mean_velocity),
           pointer(columns.mean_angular_velocity),
+          pointer(columns.contact_share),
           pointer(columns.listed_position),
+          pointer(columns.travel),
           pointer(columns.listed_displacement)};
 }
 

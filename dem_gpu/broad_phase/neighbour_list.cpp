@@ -54,6 +54,7 @@ struct CarryHistory {
   TALUS_HD void carry(int c, int old) const {
     visit_history(features, [&](auto column) { (to.*column)[c] = (from.*column)[old]; });
     to.is_truncated[c] = from.is_truncated[old];
+    if (features.has_waiting_pairs) to.apart_until[c] = from.apart_until[old];
     if (!features.has_polyhedra) return;
     const int length = to.cache_begin[c + 1] - to.cache_begin[c];
     for (int k = 0; k < length; ++k) to.separating[to.cache_begin[c] + k] = from.separating[from.cache_begin[old] + k];

@@ -23,6 +23,7 @@ ContactView view(ContactColumns& c) {
           pointer(c.is_truncated),
           pointer(c.cache_begin),
           pointer(c.separating),
+          pointer(c.apart_until),
           pointer(c.facet_begin),
           pointer(c.facet),
           pointer(c.owed_kick),
@@ -56,6 +57,7 @@ void resize_columns(ContactColumns& columns, int count, const ContactFeatures& f
   reset(columns.is_truncated, count);
   reset(columns.cache_begin, features.has_polyhedra ? count + 1 : 0);
   reset(columns.facet_begin, features.has_meshes ? count + 1 : 0);
+  reset(columns.apart_until, features.has_waiting_pairs ? count : 0);
   reset(columns.owed_kick, features.has_spheres ? count : 0);
   reset(columns.tangential_displacement, features.has_friction ? count : 0);
   reset(columns.turning_displacement, features.has_friction_couples ? count : 0);

@@ -49,6 +49,9 @@ struct ContactColumns {
   DeviceVector<int> cache_begin;             // first entry in separating, polyhedron pairs
   DeviceVector<SeparatingPlane> separating;  // one per pair of parts, all candidate pairs end to end
 
+  // With pairs of polyhedra that wait.
+  DeviceVector<Real> apart_until;  // sum of the bodies' travels up to which they cannot touch [m]
+
   // With meshes.
   DeviceVector<int> facet_begin;  // first entry in facet, n_contacts + 1; empty lists for other kinds
   DeviceVector<int> facet;        // facets that the body may touch, ascending, all lists end to end
@@ -95,6 +98,7 @@ struct ContactView {
   char* is_truncated;
   int* cache_begin;
   SeparatingPlane* separating;
+  Real* apart_until;
   const int* facet_begin;
   const int* facet;
   Real* owed_kick;
@@ -128,6 +132,7 @@ struct ContactFeatures {
   bool has_friction_couples = false;
   bool has_spheres = false;
   bool has_meshes = false;
+  bool has_waiting_pairs = false;  // of polyhedra, known to be apart for a while; not through periodic faces
 };
 
 /// Calls visitor(&ContactView::column) for each column that a contact in touch carries from step to step.

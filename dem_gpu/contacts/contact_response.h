@@ -18,8 +18,9 @@ struct ContactSide {
   Vec3 centre;  // of mass, or the wall's rotation centre [m]
   Vec3 predicted_velocity, predicted_angular_velocity;
   Vec3 mean_velocity, mean_angular_velocity;
-  Real inverse_mass = 0;  // [1/kg]
-  Vec3 inverse_inertia;   // principal [1/(kg m2)]
+  Real inverse_mass = 0;   // [1/kg]
+  Real contact_share = 1;  // BodyColumns
+  Vec3 inverse_inertia;    // principal [1/(kg m2)]
   Mat3 rotation;
 
   TALUS_HD Vec3 predicted_velocity_at(const Vec3& x) const {
@@ -48,6 +49,7 @@ TALUS_HD inline ContactSide body_side(const BodyView& bodies, int body) {
           bodies.mean_velocity[body],
           bodies.mean_angular_velocity[body],
           movable / bodies.mass[body],
+          bodies.contact_share[body],
           {movable / inertia.x, movable / inertia.y, movable / inertia.z},
           rotation_matrix(bodies.orientation[body])};
 }
@@ -59,6 +61,7 @@ TALUS_HD inline ContactSide wall_side(const WallRecord& wall) {
           wall.mean_velocity,
           wall.mean_angular_velocity,
           0,
+          1,
           {},
           {}};
 }
@@ -186,11 +189,12 @@ TALUS_HD inline Real turning(const ElasticContact& elastic, const Vec3& velocity
 /// Forces besides the elastic one, which damping may refine. Not part of respond, nor is write_contact, so that motion
 /// is the same with a record and without.
 template <class Damping, class Friction>
-TALUS_HD TALUS_ONE_COPY ContactForces contact_forces(const ContactView& contacts, int c, ElasticContact& elastic,
-                                                     const ContactSide& a, const ContactSide& b,
-                                                     const PairProperties& pair, const Friction& friction,
-                                                     const typename Friction::Patch& patch, const Step& step,
-                                                     Real diameter) {
+TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED ContactForces contact_forces(const ContactView& contacts, int c,
+                                                                       ElasticContact& elastic, const ContactSide& a,
+                                                                       const ContactSide& b, const PairProperties& pair,
+                                                                       const Friction& friction,
+                                                                       const typename Friction::Patch& patch,
+                                                                       const Step& step, Real diameter) {
   const Vec3 slip = a.predicted_velocity_at(elastic.point) - b.predicted_velocity_at(elastic.point);
   const Vec3 mean_slip = a.mean_velocity_at(elastic.point) - b.mean_velocity_at(elastic.point);
   ContactForces forces;
@@ -202,9 +206,11 @@ TALUS_HD TALUS_ONE_COPY ContactForces contact_forces(const ContactView& contacts
                    turning(elastic, a.mean_velocity - b.mean_velocity), step});
   forces.damping = -forces.normal.force * elastic.normal;
   if constexpr (Friction::kEnabled)
-    forces.friction = friction_forces(
-        contacts, c, FrictionContact{elastic, pair, forces.normal.force, forces.effective_mass, diameter, step.length},
-        a, b, friction, patch);
+    forces.friction =
+        friction_forces(contacts, c,
+                        FrictionContact{elastic, pair, forces.normal.force, forces.effective_mass, diameter,
+                                        step.length, std::min(a.contact_share, b.contact_share)},
+                        a, b, friction, patch);
   return forces;
 }
 
@@ -214,9 +220,10 @@ TALUS_HD inline Vec3 elastic_torque_on_b(const ElasticContact& elastic, const Co
 
 /// Forces on both sides, and what is kept of the contact.
 template <class Friction>
-TALUS_HD TALUS_ONE_COPY void write_contact(const ContactView& contacts, int c, const ElasticContact& elastic,
-                                           const ContactForces& forces, const ContactSide& a, const ContactSide& b,
-                                           Real time_step, Real diameter) {
+TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void write_contact(const ContactView& contacts, int c,
+                                                             const ElasticContact& elastic, const ContactForces& forces,
+                                                             const ContactSide& a, const ContactSide& b, Real time_step,
+                                                             Real diameter) {
   const Vec3 at_point = forces.damping + forces.friction.force;
   contacts.force[c] = elastic.force + at_point;
   contacts.torque_a[c] = elastic.torque_a + cross(elastic.point - a.centre, at_point);

@@ -48,14 +48,14 @@ struct NormalSeries {
     depth[0] = force[0] = dashpot[0] = Number{} + Real(1);
     depth[1] = step * start.speed * start.per_depth;
     Number kick = Number{}, shift = Number{};
-#pragma GCC unroll 8
+    TALUS_UNROLL
     for (int k = 0; k <= kOrder; ++k) {
       if (k > 0) {
         force[k] = next_of_power(force, k, kForcePower);
         dashpot[k] = next_of_power(dashpot, k, kDampingPower);
       }
       Number drag = (k + 1) * depth[k + 1];
-#pragma GCC unroll 8
+      TALUS_UNROLL
       for (int j = 1; j <= k; ++j) drag += dashpot[j] * ((k - j + 1) * depth[k - j + 1]);
       contact[k] = elastic * force[k] + damping * drag;
       kick += contact[k] * (Real(1) / (k + 1));
@@ -71,7 +71,7 @@ struct NormalSeries {
   /// The terms have become small, and elastic and damping force together push all through the step.
   TALUS_HD auto is_good() const {
     Number changes = magnitude(contact[1]);
-#pragma GCC unroll 8
+    TALUS_UNROLL
     for (int k = 2; k <= kOrder; ++k) changes += magnitude(contact[k]);
     const Number last = magnitude(contact[kOrder]) + kLastButOne * magnitude(contact[kOrder - 1]);
     return (last <= kSeriesTolerance * last_share_) & (changes < contact[0]);
@@ -85,7 +85,7 @@ struct NormalSeries {
   /// Coefficient k of depth^power from those before.
   TALUS_HD Number next_of_power(const Number* of_power, int k, Real power) const {
     Number sum = Number{};
-#pragma GCC unroll 8
+    TALUS_UNROLL
     for (int j = 1; j <= k; ++j) sum += ((power + 1) * j / k - 1) * depth[j] * of_power[k - j];
     return sum;
   }

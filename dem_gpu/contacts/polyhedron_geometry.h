@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "dem_gpu/contacts/contact_kernel.h"
 #include "dem_gpu/narrow_phase/depth_integrals.h"
 #include "dem_gpu/narrow_phase/volume_integrals.h"
@@ -33,35 +37,47 @@ TALUS_HD inline Real smaller_diameter(const ShapeView& shapes, int shape_a, int 
                   b.scale * shapes.shapes[shape_b].equivalent_diameter);
 }
 
-TALUS_HD inline bool balls_meet(const Vec3& centre_a, Real radius_a, const Vec3& centre_b, Real radius_b) {
-  const Real reach = radius_a + radius_b;
-  return norm_squared(centre_a - centre_b) < reach * reach;
-}
+/// Of a pair of bodies: whether no polygon was truncated, and how far they are apart at least, 0 if they may touch [m].
+struct PairOutcome {
+  bool is_whole = true;
+  Real distance = 0;
+};
 
 /// Sums a law's integrals over all pairs of parts of two polyhedral bodies. `separating`: the contact's cache, one
-/// entry per pair of parts. False if a polygon was truncated.
+/// entry per pair of parts.
 template <class Integrals>
-TALUS_HD bool integrate_bodies(const ShapeView& shapes, int shape_a, int shape_b, const Pose& a, const Pose& b,
-                               SeparatingPlane* separating, Integrals& integrals) {
+TALUS_HD PairOutcome integrate_bodies(const ShapeView& shapes, int shape_a, int shape_b, const Pose& a, const Pose& b,
+                                      SeparatingPlane* separating, Integrals& integrals) {
   const ShapeRange& range_a = shapes.shapes[shape_a];
   const ShapeRange& range_b = shapes.shapes[shape_b];
   const FrameChange b_to_a = frame_change(a, b), a_to_b = frame_change(b, a);
-  bool is_whole = true;
+  PairOutcome outcome;
+  Real least = std::numeric_limits<Real>::max();  // distance of a pair of parts [m in a's unscaled frame]
   for (int j = 0; j < range_b.part_count; ++j) {
     const PartRange& ball_b = shapes.parts[range_b.first_part + j];
     const Vec3 centre_b = b_to_a.point(ball_b.centre);
     const Real radius_b = b_to_a.scale * ball_b.radius;
-    if (!balls_meet(centre_b, radius_b, Vec3{}, range_a.bounding_radius)) continue;
+    const Real from_a = norm(centre_b) - (radius_b + range_a.bounding_radius);
+    if (from_a >= 0) {
+      least = std::min(least, from_a);
+      continue;
+    }
     for (int i = 0; i < range_a.part_count; ++i) {
       const PartRange& ball_a = shapes.parts[range_a.first_part + i];
-      if (!balls_meet(centre_b, radius_b, ball_a.centre, ball_a.radius)) continue;
-      const OverlapStatus status =
-          integrate_overlap(part_view(shapes, range_a.first_part + i), part_view(shapes, range_b.first_part + j),
-                            b_to_a, a_to_b, separating[i * range_b.part_count + j], integrals);
-      if (status == OverlapStatus::polygon_truncated) is_whole = false;
+      Real distance = norm(centre_b - ball_a.centre) - (radius_b + ball_a.radius);
+      if (distance < 0) {
+        const OverlapStatus status =
+            integrate_overlap(part_view(shapes, range_a.first_part + i), part_view(shapes, range_b.first_part + j),
+                              b_to_a, a_to_b, separating[i * range_b.part_count + j], integrals, distance);
+        if (status == OverlapStatus::polygon_truncated) outcome.is_whole = false;
+      }
+      least = std::min(least, distance);
     }
   }
-  return is_whole;
+  // Rounding may have made it larger than it is by a few units of the last place of the bodies' size.
+  constexpr Real kRounding = 10 * kCoplanarity;
+  outcome.distance = a.scale * (least - kRounding * (range_a.bounding_radius + b_to_a.scale * range_b.bounding_radius));
+  return outcome;
 }
 
 /// Polyhedron against polyhedron, or against a convex volume object.
@@ -69,7 +85,18 @@ template <class Law, class PartnerKind>
 struct PolyhedronGeometry {
   using Partner = PartnerKind;
   using Damping = PointDamping;
+  static constexpr bool kMayWait = !Partner::kIsWall;
   Law law;
+
+  /// Known from an earlier step to be apart still: neither can have come so far since.
+  TALUS_HD static bool waits(const ContactScene& scene, int c, int a, int b) {
+    return scene.contacts.apart_until &&
+           scene.contacts.apart_until[c] > scene.bodies.travel[a] + scene.bodies.travel[b];
+  }
+  TALUS_HD static void wait(const ContactScene& scene, int c, int a, int b, Real distance) {
+    if (scene.contacts.apart_until)
+      scene.contacts.apart_until[c] = scene.bodies.travel[a] + scene.bodies.travel[b] + distance;
+  }
 
   template <class Patch>
   TALUS_HD bool find(const ContactScene& scene, int c, int a, int b, ElasticContact& elastic, Patch& patch) const {
@@ -82,7 +109,11 @@ struct PolyhedronGeometry {
       shape_b = wall.shape;
     } else {
       const Real reach = scene.bodies.bounding_radius[a] + scene.bodies.bounding_radius[b];
-      if (norm_squared(scene.bodies.position[b] - pose_a.position) >= reach * reach) return false;
+      const Real square = norm_squared(scene.bodies.position[b] - scene.bodies.position[a]);
+      if (square >= reach * reach) {
+        wait(scene, c, a, b, std::sqrt(square) * (1 - kCoplanarity) - reach);
+        return false;
+      }
       pose_b = scene.pose(b);
       shape_b = scene.bodies.shape[b];
     }
@@ -90,10 +121,13 @@ struct PolyhedronGeometry {
     auto integrals = empty_integrals<PatchSumsFor<Patch>>(
         law, smaller_diameter(scene.shapes, shape_a, shape_b, pose_a, pose_b), pose_a.scale, pose_b.scale);
     if constexpr (Partner::kIsWall && !std::is_same_v<Law, OverlapVolume>) integrals.has_seams = true;
-    const bool is_whole = integrate_bodies(scene.shapes, shape_a, shape_b, pose_a, pose_b,
-                                           scene.contacts.separating + scene.contacts.cache_begin[c], integrals);
-    if (!is_whole) scene.contacts.is_truncated[c] = 1;
-    if (!integrals.to_contact(law, pose_a, elastic)) return false;
+    const PairOutcome outcome = integrate_bodies(scene.shapes, shape_a, shape_b, pose_a, pose_b,
+                                                 scene.contacts.separating + scene.contacts.cache_begin[c], integrals);
+    if (!outcome.is_whole) scene.contacts.is_truncated[c] = 1;
+    if (!integrals.to_contact(law, pose_a, elastic)) {
+      if constexpr (kMayWait) wait(scene, c, a, b, outcome.distance);
+      return false;
+    }
     if constexpr (integrals.kHasPatch) patch = integrals.to_patch(law, pose_a, elastic);
     return true;
   }

@@ -157,10 +157,14 @@ TALUS_HD void find_friction(const ContactScene& scene, const PairRows& rows, con
   SphereSlip<RealLanes> slip{touch.normal,           touch.depth_before * touch.inverse_depth,
                              step * mean.twist_rate, mean.slip,
                              predicted.slip,         pair.friction_coefficient * load};
+  const RealLanes contact_share =
+      smaller(gather(scene.bodies.contact_share, rows.a), gather(scene.bodies.contact_share, rows.b));
   response.sliding = gather(scene.contacts.tangential_displacement, rows.contact);
-  const SphereSpringForce<RealLanes> sliding = spring_force<Law>(
-      response.sliding, slip, stiffness,
-      tangential_dashpot(Real(2) * pair.tangential_damping * response.rate, response.effective_mass, step), step);
+  const SphereSpringForce<RealLanes> sliding =
+      spring_force<Law>(response.sliding, slip, stiffness,
+                        tangential_dashpot(Real(2) * pair.tangential_damping * response.rate, response.effective_mass,
+                                           contact_share, step),
+                        step);
   response.friction = sliding.force;
   response.tangential_energy = sliding.energy;
   if constexpr (Friction::kHasCouple) {

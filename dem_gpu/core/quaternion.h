@@ -5,21 +5,26 @@
 
 namespace dem_gpu {
 
-/// Unit quaternion, body to world.
-struct Quaternion {
-  Real w = 1, x = 0, y = 0, z = 0;
-  friend bool operator==(const Quaternion&, const Quaternion&) = default;
+/// Unit quaternion, body to world. Number: one, or several side by side (RealLanes).
+template <class Number>
+struct BasicQuaternion {
+  Number w{1}, x{}, y{}, z{};
+  friend bool operator==(const BasicQuaternion&, const BasicQuaternion&) = default;
 };
+using Quaternion = BasicQuaternion<Real>;
 
-TALUS_HD inline Quaternion operator*(const Quaternion& a, const Quaternion& b) {
+template <class Number>
+TALUS_HD inline BasicQuaternion<Number> operator*(const BasicQuaternion<Number>& a,
+                                                  const std::type_identity_t<BasicQuaternion<Number>>& b) {
   return {a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z, a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
           a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x, a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w};
 }
 
 TALUS_HD inline Quaternion conjugate(const Quaternion& q) { return {q.w, -q.x, -q.y, -q.z}; }
 
-TALUS_HD inline Quaternion normalized(const Quaternion& q) {
-  const Real scale = 1 / std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+template <class Number = Real>
+TALUS_HD inline BasicQuaternion<Number> normalized(const BasicQuaternion<Number>& q) {
+  const Number scale = 1 / square_root(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
   return {q.w * scale, q.x * scale, q.y * scale, q.z * scale};
 }
 
@@ -30,23 +35,29 @@ TALUS_HD inline Quaternion axis_angle(const Vec3& axis, Real angle) {
 }
 
 /// Rotation matrix by its columns: the body axes in the world frame.
-struct Mat3 {
-  Vec3 column_x{1, 0, 0}, column_y{0, 1, 0}, column_z{0, 0, 1};
+template <class Number>
+struct BasicMat3 {
+  Vector3<Number> column_x{1, 0, 0}, column_y{0, 1, 0}, column_z{0, 0, 1};
 };
+using Mat3 = BasicMat3<Real>;
 
-TALUS_HD inline Mat3 rotation_matrix(const Quaternion& q) {
-  const Real xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z;
-  const Real wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
+template <class Number = Real>
+TALUS_HD inline BasicMat3<Number> rotation_matrix(const BasicQuaternion<Number>& q) {
+  const Number xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z, xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z;
+  const Number wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
   return {{1 - 2 * (yy + zz), 2 * (xy + wz), 2 * (xz - wy)},
           {2 * (xy - wz), 1 - 2 * (xx + zz), 2 * (yz + wx)},
           {2 * (xz + wy), 2 * (yz - wx), 1 - 2 * (xx + yy)}};
 }
 
-TALUS_HD inline Vec3 operator*(const Mat3& m, const Vec3& v) {
+template <class Number>
+TALUS_HD inline Vector3<Number> operator*(const BasicMat3<Number>& m, const std::type_identity_t<Vector3<Number>>& v) {
   return v.x * m.column_x + v.y * m.column_y + v.z * m.column_z;
 }
 /// Transpose times vector: world to body.
-TALUS_HD inline Vec3 transpose_times(const Mat3& m, const Vec3& v) {
+template <class Number>
+TALUS_HD inline Vector3<Number> transpose_times(const BasicMat3<Number>& m,
+                                                const std::type_identity_t<Vector3<Number>>& v) {
   return {dot(m.column_x, v), dot(m.column_y, v), dot(m.column_z, v)};
 }
 /// transpose(a) * b: the rotation that takes b's frame into a's.

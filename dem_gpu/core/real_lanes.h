@@ -37,6 +37,7 @@ using RealLanes = Real;
 TALUS_HD inline Real& lane(RealLanes& a, int /*i*/) { return a; }
 TALUS_HD inline Real lane(const RealLanes& a, int /*i*/) { return a; }
 TALUS_HD inline RealLanes load_lanes_at(const Real* values) { return *values; }
+TALUS_HD inline void store_lanes_at(const RealLanes& a, Real* values) { *values = a; }
 
 #else
 
@@ -65,6 +66,7 @@ inline RealLanes load_lanes_at(const Real* values) {
   __builtin_memcpy(&lanes, values, sizeof(lanes));
   return lanes;
 }
+inline void store_lanes_at(const RealLanes& a, Real* values) { __builtin_memcpy(values, &a, sizeof(a)); }
 
 inline RealLanes square_root(const RealLanes& a) {
 #if defined(TALUS_AVX512)

@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "dem_gpu/core/intrinsics.h"
 #include "dem_gpu/core/real_lanes.h"
 #include "dem_gpu/core/vec3.h"
-#if defined(TALUS_AVX512) || defined(TALUS_AVX)
-// GCC 12 takes the undefined registers of its own header for a mistake (GCC bug 105593).
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wuninitialized"
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#include <immintrin.h>
-#pragma GCC diagnostic pop
-#endif
 
 namespace dem_gpu {
 

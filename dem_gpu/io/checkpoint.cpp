@@ -16,7 +16,7 @@ namespace dem_gpu {
 namespace {
 
 constexpr const char* kKind = "talus-checkpoint";
-constexpr int kVersion = 6;
+constexpr int kVersion = 7;
 constexpr std::int64_t kLocalRealBytes = sizeof(LocalReal);
 
 /// A whole checkpoint that does not fit the simulation: no reason to look at an earlier one.
@@ -36,6 +36,7 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("bodies/angular_velocity", b.angular_velocity);
   visit("bodies/force", b.force);
   visit("bodies/torque", b.torque);
+  visit("bodies/contact_share", b.contact_share);
   visit("bodies/listed_position", b.listed_position);
   visit("bodies/listed_displacement", b.listed_displacement);
   auto& c = state.contacts;
@@ -232,6 +233,8 @@ void read_one(const std::filesystem::path& path, const Model& model, State& stat
   accounts.list_rebuilds = file.integer_attribute("list_rebuilds");
   state.walls.move_to(state.time(model));
   if (model.scene.periodic) fit_columns_to_ghosts(model, state);
+  // Not kept: how long pairs may wait changes nothing but time.
+  if (model.features.has_waiting_pairs) state.contacts.apart_until.assign(state.contacts.key.size(), Real(0));
 }
 
 }  // namespace

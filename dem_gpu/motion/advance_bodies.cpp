@@ -4,6 +4,7 @@
 #include "dem_gpu/energy/energy.h"
 #include "dem_gpu/motion/motion_passes.h"
 #include "dem_gpu/motion/rigid_body.h"
+#include "dem_gpu/motion/round_bodies.h"
 
 namespace dem_gpu {
 namespace {
@@ -20,12 +21,14 @@ struct AdvanceBody {
     bodies.velocity[i] = velocity;
     bodies.mean_velocity[i] = velocity;
     bodies.predicted_velocity[i] = velocity + kick;
-    const Vec3& inertia = bodies.inertia[i];
-    if (inertia.x == inertia.y && inertia.y == inertia.z)
+    if (RoundBodies::is_round(bodies.inertia[i]))
       turn_round_body(i);
     else
       turn_body(i);
     bodies.listed_displacement[i] = displacement(i, velocity);
+    if (bodies.travel)
+      bodies.travel[i] +=
+          time_step * (norm(velocity) + bodies.bounding_radius[i] * norm(bodies.mean_angular_velocity[i]));
   }
 
  private:
@@ -70,13 +73,31 @@ struct AdvanceBody {
   }
 };
 
+struct AdvanceRange {
+  AdvanceBody one;
+
+  TALUS_HD void operator()(int begin, int end) const {
+    const RoundBodies round{one.bodies, one.time_step};
+    int i = begin;
+    while (i < end) {
+      const bool is_block = kRealLanes > 1 && i + kRealLanes <= end;
+      if (is_block && round.are_here(i) && round.advance(i)) {
+        i += kRealLanes;
+        continue;
+      }
+      const int last = is_block ? i + kRealLanes : i + 1;
+      for (; i < last; ++i) one(i);
+    }
+  }
+};
+
 class AdvanceBodies : public Pass {
  public:
   std::string name() const override { return "advance_bodies"; }
   bool finds_forces() const override { return false; }
   void run(const Model& model, State& state) override {
     const BodyView bodies = view(model.bodies, state.bodies);
-    parallel_for(0, bodies.count, AdvanceBody{bodies, model.time_step});
+    parallel_for_ranges(0, bodies.count, AdvanceRange{{bodies, model.time_step}});
     ++state.step;
   }
 };

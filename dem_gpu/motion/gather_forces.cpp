@@ -18,13 +18,17 @@ struct GatherForces {
   TALUS_HD void operator()(int i) const {
     if (!bodies.is_moving(i)) return;
     Vec3 force = bodies.mass[i] * gravity, torque;
+    int touching = 0;
     for (int k = incident_first[i]; k < incident_first[i + 1]; ++k) {
       const int entry = static_cast<int>(incident[k] & 0xffffffff);
       const int contact = entry >> 1;
       const bool is_b = (entry & 1) != 0;
-      force += (is_b ? Real(-1) : Real(1)) * contacts.force[contact];
+      const Vec3 push = contacts.force[contact];
+      touching += push.x != 0 || push.y != 0 || push.z != 0 ? 1 : 0;
+      force += (is_b ? Real(-1) : Real(1)) * push;
       torque += (is_b ? contacts.torque_b : contacts.torque_a)[contact];
     }
+    bodies.contact_share[i] = Real(1) / (touching > 1 ? touching : 1);
     bodies.force[i] = force;
     bodies.torque[i] = torque;
     const Real half = time_step / 2;

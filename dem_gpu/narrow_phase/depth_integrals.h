@@ -17,7 +17,6 @@ namespace dem_gpu {
 /// friction).
 template <class Profile, class Sums = NoPatchSums>
 struct DepthIntegralsOf {
-  static constexpr bool kNeedsInnerFaces = true;
   static constexpr bool kNeedsDepthPlanes = true;
   static constexpr bool kHasPatch = std::is_same_v<Sums, PatchSums>;
   using PolygonSum = std::conditional_t<kHasPatch, PolygonPatchDepthOf<Profile>, PolygonDepthOf<Profile>>;
@@ -120,13 +119,15 @@ struct DepthIntegralsOf {
             a.scale * patch.lever(), law.stiffness_per_area()};
   }
 
-  /// Of the force on a, what welded seams add left out; of friction's patches where their forces cancel, as in a slot.
-  /// Zero where there is none.
+  /// Of the force on a, what welded seams add left out; of friction's patches where their forces cancel, as in a slot;
+  /// of a couple's forces where a body reaches through the other one and nothing but a couple is left. Zero where there
+  /// is none.
   TALUS_HD Vec3 force_direction() const {
-    const Vec3 n = unit_or(force - seam_force, Vec3{});
+    Vec3 n = unit_or(force - seam_force, Vec3{});
     if constexpr (kHasPatch)
-      if (!(norm_squared(n) > 0)) return shared_normal(patch.normals());
-    return n;
+      if (!(norm_squared(n) > 0)) n = shared_normal(patch.normals());
+    if (norm_squared(n) > 0 || !(norm_squared(moment) > 0)) return n;
+    return any_perpendicular(unit_or(moment, Vec3{}));
   }
 
   /// Depth of the overlap along the force: the depth below the planes of the steeper field over its steepness there.

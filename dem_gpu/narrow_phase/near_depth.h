@@ -14,16 +14,18 @@ struct LocalBall {
   LocalReal radius = 0;
 };
 
-/// About the middle of the points' bounding box.
-template <int kMost>
-TALUS_HD LocalBall ball_about(const PointColumns<kMost>& points) {
-  LocalVec3 low = points[0], high = low;
-  for (int i = 1; i < points.count; ++i) {
-    const LocalVec3 p = points[i];
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+/// About the middle of the points' bounding box. `Points` has blocks of eight: PartVertices or SurfacePieces.
+template <class Points>
+TALUS_HD LocalBall ball_about(const Points& points) {
+  LaneVec3 low = points.block(0), high = low;
+  for (int i = 1; i < points.block_count(); ++i) {
+    const LaneVec3 p = points.block(i);
+    low = {least(low.x, p.x), least(low.y, p.y), least(low.z, p.z)};
+    high = {greatest(high.x, p.x), greatest(high.y, p.y), greatest(high.z, p.z)};
   }
-  return {LocalReal(0.5) * (low + high), LocalReal(0.5) * norm(high - low)};
+  const LocalVec3 lowest{least_lane(low.x), least_lane(low.y), least_lane(low.z)};
+  const LocalVec3 highest{greatest_lane(high.x), greatest_lane(high.y), greatest_lane(high.z)};
+  return {LocalReal(0.5) * (lowest + highest), LocalReal(0.5) * norm(highest - lowest)};
 }
 
 /// Room for what of a depth field can be the least somewhere in an overlap.
@@ -38,15 +40,15 @@ struct DepthRange {
   LocalReal shallowest, deepest;
 };
 
-template <int kMost>
-TALUS_HD DepthRange depth_range(const LocalHalfSpace& plane, const PointColumns<kMost>& points) {
-  Lanes lowest = points.height_over(plane, 0), highest = lowest;
-  for (int first = kLanes; first < points.padded_count; first += kLanes) {
-    const Lanes height = points.height_over(plane, first);
-    lowest = least(height, lowest);
-    highest = greatest(height, highest);
+template <class Points>
+TALUS_HD DepthRange depth_range(const LocalHalfSpace& plane, const Points& points) {
+  Lanes lowest = depths_below(plane, points.block(0)), highest = lowest;
+  for (int i = 1; i < points.block_count(); ++i) {
+    const Lanes depth = depths_below(plane, points.block(i));
+    lowest = least(depth, lowest);
+    highest = greatest(depth, highest);
   }
-  return {-greatest_lane(highest), -least_lane(lowest)};
+  return {least_lane(lowest), greatest_lane(highest)};
 }
 
 /// A term is the greatest of a few planes: in the hull of some points nowhere shallower and nowhere deeper than this.
@@ -88,9 +90,9 @@ TALUS_HD inline bool is_within(const DepthField& field, int term, const LocalBal
 /// The field in the hull of some points: a plane or term is out if it is nowhere there less deep than another one is at
 /// its deepest. `ball` bounds the points and settles most at the cost of one depth. The whole field if too much is
 /// near.
-template <int kMost>
-TALUS_HD DepthField near_field(const DepthField& field, const PointColumns<kMost>& points, const LocalBall& ball,
-                               NearField& near) {
+template <class Points>
+TALUS_HD TALUS_DEVICE_CALL DepthField near_field(const DepthField& field, const Points& points, const LocalBall& ball,
+                                                 NearField& near) {
   ScratchArray<LocalReal, NearField::kMostPlanes> plane_shallowest;
   ScratchArray<LocalReal, NearField::kMostTerms> term_shallowest;
   LocalReal bound = greatest_possible(ball, field);

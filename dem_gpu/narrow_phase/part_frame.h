@@ -46,6 +46,8 @@ struct PartView {
   const LocalHalfSpace* planes;
   const FaceCorners* faces;
   const std::uint8_t* corners;
+  const FacePiece* face_pieces;
+  const VertexBlock* vertex_blocks;  // of this part
   DepthField depth;
 };
 
@@ -56,6 +58,8 @@ TALUS_HD inline PartView part_view(const ShapeView& shapes, int part) {
           shapes.planes + range.first_face,
           shapes.faces + range.first_face,
           shapes.corners,
+          shapes.face_pieces,
+          shapes.vertex_blocks + range.first_vertex_block,
           {shapes.depth_planes + range.first_depth_plane, range.depth_plane_count,
            shapes.depth_terms + range.first_depth_term, range.depth_term_count, shapes.term_planes}};
 }

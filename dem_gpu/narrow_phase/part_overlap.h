@@ -24,11 +24,11 @@ struct CoplanarRule {
     for (int k = 0; k < sides.coplanar_count; ++k) {
       const int f = sides.coplanar[k];
       const LocalHalfSpace plane = solid.planes[f];
-      bool lies_in_plane = true;
-      for (int c = 0; c < face.count && lies_in_plane; ++c)
-        lies_in_plane = std::abs(dot(plane.normal, face.corner[c]) - plane.offset) <= tolerance;
-      if (!lies_in_plane) continue;
-      const LocalVec3 area = cross(face.corner[1] - face.corner[0], face.corner[2] - face.corner[0]);
+      const Lanes depths = depths_below(plane, face.corners);
+      const Lanes above = every_lane<Lanes>(tolerance), below = every_lane<Lanes>(-tolerance);
+      if ((lanes_above(depths, above) | lanes_above(below, depths)) != 0) continue;
+      const LocalVec3 corner = face.corner(0);
+      const LocalVec3 area = cross(face.corner(1) - corner, face.corner(2) - corner);
       if (dot(plane.normal, area) < 0) return false;
       const bool is_inner_plane = f >= solid.range.outer_face_count;
       return is_inner_face == is_inner_plane ? is_closed : is_inner_plane;
@@ -37,49 +37,184 @@ struct CoplanarRule {
   }
 };
 
-/// Visits each piece of `surface`'s faces that lies inside `solid`, both convex. `vertices` are the surface's, already
-/// in the solid's frame, with their outcodes against the solid's planes. Each clipped face is an independent polygon;
-/// no topology is built. visitor(polygon in the solid's frame, face index). Returns false if a polygon was truncated.
-template <class Visitor>
-TALUS_HD bool visit_surface_inside(const PartView& surface, int face_count, const PartView& solid,
-                                   const PartVertices& vertices, const PlaneSides& sides, const CoplanarRule& coplanar,
-                                   Visitor&& visitor) {
-  Polygon buffer[2];
-  ScratchArray<std::uint8_t, kMaxPartFaces> cutting;
-  for (int f = 0; f < face_count; ++f) {
-    const FaceCorners face = surface.faces[f];
-    bool is_outside = false;
-    int cutting_count = 0;
-    for (int k = 0; k < sides.plane_count && !is_outside; ++k) {
-      const std::uint64_t in_front = sides.outside[k] & face.vertices;
-      is_outside = in_front == face.vertices;
-      if (in_front != 0) cutting[cutting_count++] = sides.plane[k];
-    }
-    if (is_outside) continue;
-    Polygon* polygon = &buffer[0];
-    Polygon* other = &buffer[1];
-    polygon->count = face.count;
-    polygon->is_truncated = false;
-    const std::uint8_t* corner = surface.corners + face.first;
-    for (int c = 0; c < face.count; ++c) polygon->corner[c] = vertices[corner[c]];
-    if (sides.coplanar_count > 0 && !coplanar.keeps(*polygon, f >= surface.range.outer_face_count, solid)) continue;
-    for (int k = 0; k < cutting_count && polygon->count > 0; ++k) {
-      clip(*polygon, solid.planes[cutting[k]], *other);
-      Polygon* swap = polygon;
-      polygon = other;
-      other = swap;
-    }
-    if (polygon->is_truncated) return false;
-    if (polygon->count > 0) visitor(*polygon, f);
+/// What of a surface and a solid meets: the surface's faces with a piece inside, and the solid's planes that cut them.
+struct Meeting {
+  /// So many times the rounding of positions a piece must reach below each plane that cuts it: of a thinner overlap
+  /// some faces may be lost to rounding where others are not.
+  static constexpr LocalReal kClearDepth = 100;
+
+  FaceSet faces, planes;
+  bool is_thin = false;
+};
+
+/// Pieces of a few faces, cut by one plane after the other. All of them by one plane before the next: the cuts of one
+/// plane do not wait for one another, which those of one face do.
+class CutPieces {
+ public:
+  TALUS_HD int count() const { return count_; }
+  TALUS_HD Polygon& piece(int i) { return piece_[i]; }
+  TALUS_HD int face(int i) const { return face_[i]; }
+
+  /// False if there is no room.
+  TALUS_HD TALUS_INLINE bool add(const Polygon& polygon, int face) {
+    if (count_ == kMost) return false;
+    face_[count_] = static_cast<std::uint8_t>(face);
+    piece_[count_++] = polygon;
+    return true;
   }
-  return true;
+
+  /// Does any piece reach beyond the plane?
+  TALUS_HD TALUS_INLINE bool reaches_beyond(const LocalHalfSpace& plane) const {
+    LaneSet beyond = 0;
+    for (int i = 0; i < count_; ++i) beyond |= lanes_above(Lanes{}, depths_below(plane, piece_[i].corners));
+    return beyond != 0;
+  }
+
+  /// Does any piece reach deeper below the plane?
+  TALUS_HD TALUS_INLINE bool reaches_below(const LocalHalfSpace& plane, LocalReal depth) const {
+    const Lanes limit = every_lane<Lanes>(depth);
+    LaneSet below = 0;
+    for (int i = 0; i < count_; ++i) below |= lanes_above(depths_below(plane, piece_[i].corners), limit);
+    return below != 0;
+  }
+
+  /// Keeps what lies inside the plane. A piece that outgrows its lanes becomes two; false if there is no room for them.
+  TALUS_HD TALUS_INLINE bool cut_all(const LocalHalfSpace& plane) {
+    int kept = 0;
+    for (int i = 0; i < count_; ++i) {
+      Polygon polygon = piece_[i];
+      const std::uint8_t face = face_[i];
+      Lanes depths = depths_below(plane, polygon.corners);
+      if (outgrows(cut_order(polygon, depths))) {
+        if (!add(half_of(polygon, true), face)) return false;
+        polygon = half_of(polygon, false);
+        depths = depths_below(plane, polygon.corners);
+      }
+      piece_[kept] = cut(polygon, depths, cut_order(polygon, depths));
+      face_[kept] = face;
+      kept += static_cast<int>(piece_[kept].count > 0);
+    }
+    count_ = kept;
+    return true;
+  }
+
+ private:
+  static constexpr int kMost = 16;
+  ScratchArray<Polygon, kMost> piece_;
+  ScratchArray<std::uint8_t, kMost> face_;
+  int count_ = 0;
+};
+
+/// The faces of a surface that are not wholly in front of a plane, kLanes of them at most from `first` on.
+struct FacesToCut {
+  std::uint8_t face[kLanes];
+  int count = 0;
+};
+
+TALUS_HD TALUS_INLINE FacesToCut faces_to_cut(const PartView& surface, int first, const FaceSet& wanted,
+                                              const PlaneSides& sides) {
+  const int last = first + kLanes < surface.range.face_count ? first + kLanes : surface.range.face_count;
+  FacesToCut faces;
+  for (int f = first; f < last; ++f) {
+    LaneSet outside = 0;
+    for (int k = 0; k < sides.plane_count; k += kLanes)
+      outside |= sets_holding_all(sides.outside.data() + k, surface.faces[f].vertices);
+    faces.face[faces.count] = static_cast<std::uint8_t>(f);
+    faces.count += static_cast<int>(outside == 0) & static_cast<int>(wanted.has(f));
+  }
+  return faces;
 }
+
+/// Visits each piece of `surface`'s faces that lies inside `solid`, both convex. `vertices` are the surface's, already
+/// in the solid's frame, with their outcodes against the solid's planes. Only `wanted` faces; each clipped face is an
+/// independent polygon, no topology is built. visitor(polygon in the solid's frame, face index). Returns false if a
+/// polygon was truncated.
+template <class Visitor>
+TALUS_HD TALUS_DEVICE_CALL bool visit_surface_inside(const PartView& surface, const FaceSet& wanted,
+                                                     const PartView& solid, const PartVertices& vertices,
+                                                     const PlaneSides& sides, const CoplanarRule& coplanar,
+                                                     Meeting& meeting, Visitor&& visitor) {
+  bool is_whole = true;
+  meeting = {};
+  for (int first = 0; first < surface.range.face_count; first += kLanes) {
+    const FacesToCut faces = faces_to_cut(surface, first, wanted, sides);
+    CutPieces pieces;
+    for (int i = 0; i < faces.count; ++i) {
+      const int f = faces.face[i];
+      const FaceCorners& face = surface.faces[f];
+      for (int p = face.first_piece; p < face.first_piece + face.piece_count; ++p) {
+        const Polygon polygon{vertices.at(surface.face_pieces[p].corner), surface.face_pieces[p].count};
+        if (sides.coplanar_count > 0 && !coplanar.keeps(polygon, f >= surface.range.outer_face_count, solid)) continue;
+        is_whole &= pieces.add(polygon, f);
+      }
+    }
+    FaceSet cutting;
+    for (int k = 0; k < sides.plane_count && pieces.count() > 0; ++k) {
+      const int f = sides.plane[k];
+      if (!pieces.reaches_beyond(solid.planes[f])) continue;
+      is_whole &= pieces.cut_all(solid.planes[f]);
+      cutting.add(f);
+    }
+    meeting.planes.add(cutting);
+    for (int k = 0; k < sides.plane_count && pieces.count() > 0; ++k)
+      if (const int f = sides.plane[k]; cutting.has(f))
+        meeting.is_thin |= !pieces.reaches_below(solid.planes[f], Meeting::kClearDepth * coplanar.tolerance);
+    for (int i = 0; i < pieces.count(); ++i) {
+      meeting.faces.add(pieces.face(i));
+      visitor(pieces.piece(i), pieces.face(i));
+    }
+  }
+  return is_whole;
+}
+
+/// Of the planes of a part's faces those that have any of some faces.
+TALUS_HD inline FaceSet planes_of(const PartView& part, const FaceSet& faces) {
+  FaceSet planes;
+  for (int f = 0; f < part.range.face_count; ++f)
+    if (faces.has(f)) planes.add(part.faces[f].plane);
+  return planes;
+}
+
+/// The faces of a solid that bound its overlap with a surface of which all that is inside it has been visited: those
+/// whose planes cut that, and those with a corner inside the surface's own body. The other way round, only planes of
+/// the surface's faces that lie inside bound it, so that no other one need cut the solid's: `sides` loses those. Where
+/// rounding could have lost some, all bound.
+TALUS_HD TALUS_DEVICE_CALL inline FaceSet faces_that_bound(const PartView& solid, const PartView& surface,
+                                                           const Meeting& met, const PartVertices& vertices,
+                                                           PlaneSides& sides) {
+  std::uint64_t outside = 0;
+  for (int k = 0; k < sides.plane_count; ++k) outside |= sides.outside[k];
+  const std::uint64_t inside = ~outside & vertices.all();
+  const bool is_lost = met.faces.is_empty() && inside != 0 && inside != vertices.all();
+  if (met.is_thin || is_lost) return FaceSet::all();
+  const FaceSet cut_by = planes_of(surface, met.faces);
+  int kept = 0;
+  for (int k = 0; k < sides.plane_count; ++k) {
+    sides.outside[kept] = sides.outside[k];
+    sides.plane[kept] = sides.plane[k];
+    kept += static_cast<int>(cut_by.has(surface.faces[sides.plane[k]].plane));
+  }
+  sides.plane_count = kept;
+  sides.fill_up();
+  FaceSet cutting;
+  if (!met.faces.is_empty()) cutting = planes_of(solid, met.planes);
+  FaceSet bounding;
+  for (int f = 0; f < solid.range.face_count; ++f)
+    if ((solid.faces[f].vertices & inside) != 0 || cutting.has(solid.faces[f].plane)) bounding.add(f);
+  return bounding;
+}
+
+/// A depth field of so few planes is taken as it is: to look for what matters of it costs more.
+inline constexpr int kFewPlanes = 12;
 
 /// Hands the pieces of a surface inside a solid, which `visit` visits, to add(polygon, face, solid), the solid with
 /// what of its depth field matters on them. `vertices`: the surface's, in the solid's frame. False if a polygon was
 /// truncated.
 template <class Visit, class Add>
-TALUS_HD bool integrate_near_depth(const PartView& solid, const PartVertices& vertices, const Visit& visit, Add&& add) {
+TALUS_HD TALUS_DEVICE_CALL bool integrate_near_depth(const PartView& solid, const PartVertices& vertices,
+                                                     const Visit& visit, Add&& add) {
+  if (solid.depth.term_count == 0 && solid.depth.plane_count <= kFewPlanes)
+    return visit([&](Polygon& piece, int face) { add(piece, face, solid); });
   SurfacePieces pieces;
   if (!visit([&](const Polygon& piece, int face) { pieces.add(piece, face); })) return false;
   if (pieces.count() == 0) return true;
@@ -89,8 +224,7 @@ TALUS_HD bool integrate_near_depth(const PartView& solid, const PartVertices& ve
     near_solid.depth = near_field(solid.depth, vertices, ball_about(vertices), near);
     return visit([&](Polygon& piece, int face) { add(piece, face, near_solid); });
   }
-  pieces.corners.pad();
-  near_solid.depth = near_field(solid.depth, pieces.corners, ball_about(pieces.corners), near);
+  near_solid.depth = near_field(solid.depth, pieces, ball_about(pieces), near);
   pieces.visit([&](Polygon& piece, int face) { add(piece, face, near_solid); });
   return true;
 }
@@ -98,17 +232,24 @@ TALUS_HD bool integrate_near_depth(const PartView& solid, const PartVertices& ve
 enum class OverlapStatus : std::uint8_t { separated, overlapping, polygon_truncated };
 
 /// Sums `Integrals` over the overlap of part a of one body and part b of another. `b_to_a` and `a_to_b` are inverse
-/// frame changes; `separating` is the pair's cache. `Integrals` provides:
+/// frame changes; `separating` is the pair's cache. `distance`: of separated parts, that they are apart at least, in
+/// a's unscaled frame [m]; 0 where that is not known. `Integrals` provides:
 ///   kNeedsDepthPlanes                           whether depth fields are integrated; then also
 ///   is_truncated                                whether a piece of a polygon did not fit
-///   kNeedsInnerFaces                            whether cut faces are visited too
+///   finish()                                    without depth fields: ends the pair
 ///   add_surface_b(polygon, plane_b, is_outer, part_a, b_to_a)   a piece of b's surface inside a, polygon in a's frame
 ///   add_surface_a(polygon, plane_a, is_outer, part_b, b_to_a)   a piece of a's surface inside b, polygon in b's frame
+/// Cut faces are visited too.
 template <class Integrals>
 TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, const FrameChange& b_to_a,
-                                         const FrameChange& a_to_b, SeparatingPlane& separating, Integrals& integrals) {
-  if (separating > 0 && lies_outside(b, a.planes[separating - 1], b_to_a)) return OverlapStatus::separated;
-  if (separating < 0 && lies_outside(a, b.planes[-separating - 1], a_to_b)) return OverlapStatus::separated;
+                                         const FrameChange& a_to_b, SeparatingPlane& separating, Integrals& integrals,
+                                         Real& distance) {
+  distance = 0;
+  if (separating != 0) {
+    distance = separating > 0 ? distance_outside(b, a.planes[separating - 1], b_to_a)
+                              : b_to_a.scale * distance_outside(a, b.planes[-separating - 1], a_to_b);
+    if (distance >= 0) return OverlapStatus::separated;
+  }
   separating = 0;
 
   PartVertices vertices_b, vertices_a;
@@ -128,31 +269,45 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
     return OverlapStatus::separated;
   }
 
-  const int faces_b = Integrals::kNeedsInnerFaces ? b.range.face_count : b.range.outer_face_count;
-  const int faces_a = Integrals::kNeedsInnerFaces ? a.range.face_count : a.range.outer_face_count;
-  const auto visit_b = [&](auto&& visitor) {
-    return visit_surface_inside(b, faces_b, a, vertices_b, sides_b, {sides_b, tolerance_a, true}, visitor);
+  const auto add = [&](auto&& visit, const PartView& solid, const PartVertices& vertices, auto&& add_piece) {
+    if constexpr (Integrals::kNeedsDepthPlanes)
+      return integrate_near_depth(solid, vertices, visit, add_piece);
+    else
+      return visit([&](Polygon& polygon, int face) { add_piece(polygon, face, solid); });
   };
-  const auto visit_a = [&](auto&& visitor) {
-    return visit_surface_inside(a, faces_a, b, vertices_a, sides_a, {sides_a, tolerance_b, false}, visitor);
+  const auto add_b = [&](const FaceSet& wanted, Meeting& meeting) {
+    const auto visit = [&](auto&& visitor) {
+      return visit_surface_inside(b, wanted, a, vertices_b, sides_b, {sides_b, tolerance_a, true}, meeting, visitor);
+    };
+    return add(visit, a, vertices_b, [&](Polygon& polygon, int face, const PartView& solid) {
+      integrals.add_surface_b(polygon, b.planes[face], face < b.range.outer_face_count, solid, b_to_a);
+    });
   };
-  const auto add_b = [&](Polygon& polygon, int face, const PartView& solid) {
-    integrals.add_surface_b(polygon, b.planes[face], face < b.range.outer_face_count, solid, b_to_a);
+  const auto add_a = [&](const FaceSet& wanted, Meeting& meeting) {
+    const auto visit = [&](auto&& visitor) {
+      return visit_surface_inside(a, wanted, b, vertices_a, sides_a, {sides_a, tolerance_b, false}, meeting, visitor);
+    };
+    return add(visit, b, vertices_a, [&](Polygon& polygon, int face, const PartView& solid) {
+      integrals.add_surface_a(polygon, a.planes[face], face < a.range.outer_face_count, solid, b_to_a);
+    });
   };
-  const auto add_a = [&](Polygon& polygon, int face, const PartView& solid) {
-    integrals.add_surface_a(polygon, a.planes[face], face < a.range.outer_face_count, solid, b_to_a);
-  };
-  bool b_whole, a_whole;
-  if constexpr (Integrals::kNeedsDepthPlanes) {
-    b_whole = integrate_near_depth(a, vertices_b, visit_b, add_b);
-    a_whole = integrate_near_depth(b, vertices_a, visit_a, add_a);
+  // The body that reaches in with fewer of its vertices comes first: few of its faces lie inside, and they tell which
+  // of the other's are worth a look. Where faces lie flush all are looked at.
+  const bool is_flush = sides_a.coplanar_count + sides_b.coplanar_count > 0;
+  Meeting meeting;
+  bool is_whole;
+  if (sides_b.least_inside(vertices_b) <= sides_a.least_inside(vertices_a)) {
+    is_whole = add_b(FaceSet::all(), meeting);
+    is_whole &= add_a(is_flush ? FaceSet::all() : faces_that_bound(a, b, meeting, vertices_a, sides_a), meeting);
   } else {
-    b_whole = visit_b([&](Polygon& polygon, int face) { add_b(polygon, face, a); });
-    a_whole = visit_a([&](Polygon& polygon, int face) { add_a(polygon, face, b); });
+    is_whole = add_a(FaceSet::all(), meeting);
+    is_whole &= add_b(is_flush ? FaceSet::all() : faces_that_bound(b, a, meeting, vertices_b, sides_b), meeting);
   }
   if constexpr (Integrals::kNeedsDepthPlanes)
-    if (integrals.is_truncated) return OverlapStatus::polygon_truncated;
-  return a_whole && b_whole ? OverlapStatus::overlapping : OverlapStatus::polygon_truncated;
+    is_whole &= !integrals.is_truncated;
+  else
+    integrals.finish();
+  return is_whole ? OverlapStatus::overlapping : OverlapStatus::polygon_truncated;
 }
 
 }  // namespace dem_gpu

@@ -34,12 +34,13 @@ TALUS_HD bool visit_part_inside(const PlacedPart& body, const LocalHalfSpace* pl
     if (-depth_below<Real>(planes[p], body.centre) >= body.radius) return true;
   PartRange range;
   range.face_count = plane_count;
-  const PartView solid{range, nullptr, planes, nullptr, nullptr, {}};
+  const PartView solid{range, nullptr, planes, nullptr, nullptr, nullptr, nullptr, {}};
   PlaneSides sides;
   const LocalReal tolerance = rounded(kCoplanarity * body.radius);
   if (classify(solid, body.vertices, tolerance, sides) >= 0) return true;
-  return visit_surface_inside(body.part, body.part.range.face_count, solid, body.vertices, sides,
-                              {sides, tolerance, true}, visitor);
+  Meeting meeting;
+  return visit_surface_inside(body.part, FaceSet::all(), solid, body.vertices, sides, {sides, tolerance, true}, meeting,
+                              visitor);
 }
 
 }  // namespace dem_gpu

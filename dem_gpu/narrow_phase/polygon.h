@@ -1,58 +1,59 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dem_gpu/core/host_device.h"
-#include "dem_gpu/core/scratch_array.h"
-#include "dem_gpu/core/vec3.h"
-#include "dem_gpu/shapes/shape_columns.h"
+#include <limits>
+
+#include "dem_gpu/narrow_phase/cut_order.h"
+#include "dem_gpu/narrow_phase/part_vertices.h"
 
 namespace dem_gpu {
 
-/// Corners a clipped face may have: a face has at most kMaxFaceCorners, and each plane that cuts it adds at most one.
-inline constexpr int kMaxPolygonCorners = 64;
-
-/// Planar convex polygon.
+/// Planar convex polygon of up to kLanes corners, a lane each; lanes beyond the last corner repeat the first, so that
+/// sums over the triangles of its fan and extremes over its corners need no mask. A face of more corners is several of
+/// these.
 struct Polygon {
-  ScratchArray<LocalVec3, kMaxPolygonCorners> corner;
+  LaneVec3 corners;
   int count = 0;
   bool is_truncated = false;  // a corner did not fit: reported by the host, never dropped in silence
+
+  TALUS_HD LocalVec3 corner(int i) const { return point_at(corners, i); }
+  /// Its lanes that are corners.
+  TALUS_HD LaneSet all() const { return (1u << count) - 1; }
 };
 
-TALUS_HD inline void append(Polygon& polygon, const LocalVec3& corner) {
-  if (polygon.count < kMaxPolygonCorners)
-    polygon.corner[polygon.count++] = corner;
-  else
-    polygon.is_truncated = true;
+/// Corners that are not above a plane, from their depths below it.
+TALUS_HD TALUS_INLINE LaneSet corners_inside(const Polygon& polygon, const Lanes& depths) {
+  return ~lanes_above(Lanes{}, depths) & polygon.all();
 }
 
-/// Depth of each corner of a polygon below a plane.
-using CornerDepths = ScratchArray<LocalReal, kMaxPolygonCorners>;
+/// How a plane cuts a polygon, from the depths of its corners below it.
+TALUS_HD TALUS_INLINE auto cut_order(const Polygon& polygon, const Lanes& depths) -> decltype(cut_order(0, 0u)) {
+  return cut_order(polygon.count, corners_inside(polygon, depths));
+}
+TALUS_HD TALUS_INLINE bool outgrows(const CutOrder& order) { return order.count > kLanes; }
 
-/// The piece of `polygon` where the depths, given at its corners and linear between them, are not negative. Sutherland
-/// & Hodgman, Commun. ACM 17 (1974) 32-42.
-TALUS_HD inline void clip(const Polygon& polygon, const CornerDepths& depths, Polygon& clipped) {
-  clipped.count = 0;
-  clipped.is_truncated = polygon.is_truncated;
-  if (polygon.count == 0) return;
-  LocalVec3 previous = polygon.corner[polygon.count - 1];
-  LocalReal previous_depth = depths[polygon.count - 1];
-  for (int c = 0; c < polygon.count; ++c) {
-    const LocalVec3 current = polygon.corner[c];
-    const LocalReal depth = depths[c];
-    if ((depth > 0 && previous_depth < 0) || (depth < 0 && previous_depth > 0))
-      append(clipped, previous + (previous_depth / (previous_depth - depth)) * (current - previous));
-    if (depth >= 0) append(clipped, current);
-    previous = current;
-    previous_depth = depth;
+/// What a plane leaves of a polygon. The same steps whether it cuts, leaves all or nothing: which of these it is is
+/// what a processor guesses badly.
+TALUS_HD TALUS_INLINE Polygon cut(const Polygon& polygon, const Lanes& depths, const CutOrder& order) {
+  const LaneIndex from = lane_index(order.from), to = lane_index(order.to);
+  // Where `from` and `to` are one corner, the quotient is 1 or 0 and the corner stays as it is.
+  const Lanes depth_from = in_order(depths, from), depth_to = least(in_order(depths, to), Lanes{});
+  const Lanes some = every_lane<Lanes>(std::numeric_limits<LocalReal>::min());
+  const Lanes share = depth_from / greatest(depth_from - depth_to, some);
+  const LaneVec3 start = in_order(polygon.corners, from), end = in_order(polygon.corners, to);
+  return {start + share * (end - start), outgrows(order) ? kLanes : order.count,
+          polygon.is_truncated || outgrows(order)};
+}
+
+/// One side of the diagonal from the first corner that halves the polygon.
+TALUS_HD inline Polygon half_of(const Polygon& polygon, bool is_second) {
+  const int middle = polygon.count / 2, count = is_second ? polygon.count - middle + 1 : middle + 1;
+  LaneOrder order;
+  for (int i = 0; i < kLanes; ++i) {
+    const int corner = i == 0 || i >= count ? 0 : is_second ? middle + i - 1 : i;
+    order.lane[i] = static_cast<std::uint8_t>(corner);
   }
-  if (clipped.count < 3) clipped.count = 0;
-}
-
-/// The piece of `polygon` inside the half-space (its normal need not be a unit vector).
-TALUS_HD inline void clip(const Polygon& polygon, const LocalHalfSpace& half_space, Polygon& clipped) {
-  CornerDepths depths;
-  for (int c = 0; c < polygon.count; ++c) depths[c] = depth_below(half_space, polygon.corner[c]);
-  clip(polygon, depths, clipped);
+  return {in_order(polygon.corners, lane_index(order)), count, polygon.is_truncated};
 }
 
 }  // namespace dem_gpu

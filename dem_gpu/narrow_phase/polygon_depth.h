@@ -48,32 +48,31 @@ struct PolygonPatchDepthOf : PolygonDepthOf<Profile> {
   }
 };
 
-/// Adds a polygon on which the depth is linear: closed form over the triangles of its fan.
+/// Adds a polygon on which the depth is linear: closed form over the triangles of its fan, a lane each. (Lanes beyond
+/// the last triangle have two corners in one place, so no area.)
 template <class Sum>
-TALUS_HD void add_linear_depth(const Polygon& polygon, const LocalHalfSpace& plane, const LocalVec3& normal, Sum& sum) {
-  [[maybe_unused]] const LocalReal depth_before = sum.depth;
-  DepthTriangle triangle;
-  triangle.a = sum.origin.to(polygon.corner[0]);
-  triangle.depth_a = depth_below(plane, polygon.corner[0]);
-  triangle.b = sum.origin.to(polygon.corner[1]);
-  triangle.depth_b = depth_below(plane, polygon.corner[1]);
-  sum.largest = std::max(sum.largest, std::max(triangle.depth_a, triangle.depth_b));
-  for (int c = 2; c < polygon.count; ++c) {
-    triangle.c = sum.origin.to(polygon.corner[c]);
-    triangle.depth_c = depth_below(plane, polygon.corner[c]);
-    triangle.area = LocalReal(0.5) * dot(cross(triangle.b - triangle.a, triangle.c - triangle.a), normal);
-    const TriangleIntegrals integrals = sum.profile.integrate(triangle);
-    sum.area += integrals.area;
-    sum.descent += integrals.area * plane.normal;
-    sum.depth += integrals.depth;
-    sum.depth_moment += integrals.depth_moment;
-    sum.largest = std::max(sum.largest, triangle.depth_c);
-    if constexpr (Sum::kHasPatch) sum.second_moment += sum.profile.second_moment(triangle);
-    triangle.b = triangle.c;
-    triangle.depth_b = triangle.depth_c;
+TALUS_HD TALUS_DEVICE_CALL void add_linear_depth(const Polygon& polygon, const LocalHalfSpace& plane,
+                                                 const LocalVec3& normal, Sum& sum) {
+  const Lanes depths = depths_below(plane, polygon.corners);
+  const LaneVec3 corners = sum.origin.to(polygon.corners);
+  DepthTriangles fan{first_lane(corners), corners, next_lane(corners), first_lane(depths), depths,
+                     next_lane(depths),   {}};
+  fan.area = LocalReal(0.5) * dot(normal, cross(fan.b - fan.a, fan.c - fan.a));
+  const auto integrals = sum.profile.integrate(fan);
+  Lanes second{};
+  if constexpr (Sum::kHasPatch) second = sum.profile.second_moment(fan);
+  const LaneVec3& moment = integrals.depth_moment;
+  const Lanes sums[kLanes] = {integrals.depth, integrals.area, moment.x, moment.y, moment.z, second, {}, {}};
+  const Lanes total = sums_of_lanes(sums);
+  sum.depth += total[0];
+  sum.area += total[1];
+  sum.descent += LocalReal(total[1]) * plane.normal;
+  sum.depth_moment += LocalVec3{total[2], total[3], total[4]};
+  sum.largest = std::max(sum.largest, greatest_lane(depths));
+  if constexpr (Sum::kHasPatch) {
+    sum.second_moment += total[5];
+    sum.aligned += rounded(aligned_share(-dot(normal, plane.normal))) * total[0];
   }
-  if constexpr (Sum::kHasPatch)
-    sum.aligned += rounded(aligned_share(-dot(normal, plane.normal))) * (sum.depth - depth_before);
 }
 
 /// Adds the least depth below `planes` over a polygon.
@@ -135,13 +134,10 @@ struct FieldOnPolygon {
     int count = 0;
   };
 
+  /// About a middle of the corners: the first counts for the lanes it fills.
   TALUS_HD static LocalBall ball_about(const Polygon& polygon) {
-    LocalVec3 sum;
-    for (int c = 0; c < polygon.count; ++c) sum += polygon.corner[c];
-    const LocalVec3 centre = sum / static_cast<LocalReal>(polygon.count);
-    LocalReal square = 0;
-    for (int c = 0; c < polygon.count; ++c) square = std::max(square, norm_squared(polygon.corner[c] - centre));
-    return {centre, std::sqrt(square)};
+    const LocalVec3 centre = sum_of_lanes(polygon.corners) / LocalReal(kLanes);
+    return {centre, std::sqrt(greatest_lane(norm_squared(polygon.corners - centre)))};
   }
 
   /// Leaves out what is nowhere less deep than `bound`.
@@ -163,15 +159,12 @@ struct FieldOnPolygon {
 
   /// True if plane k is nowhere on the polygon the greatest of the term; of equal ones the lowest index stays.
   TALUS_HD static bool is_outdone(const Polygon& polygon, const LocalHalfSpace* planes, int count, int k) {
+    const Lanes own = depths_below(planes[k], polygon.corners);
     for (int i = 0; i < count; ++i) {
       if (i == k) continue;
-      bool is_deeper = true;
-      for (int c = 0; c < polygon.count && is_deeper; ++c) {
-        const LocalReal own = depth_below(planes[k], polygon.corner[c]),
-                        other = depth_below(planes[i], polygon.corner[c]);
-        is_deeper = i < k ? other >= own : other > own;
-      }
-      if (is_deeper) return true;
+      const Lanes other = depths_below(planes[i], polygon.corners);
+      const LaneSet all = (1u << kLanes) - 1;
+      if (i < k ? lanes_above(own, other) == 0 : lanes_above(other, own) == all) return true;
     }
     return false;
   }
@@ -194,24 +187,27 @@ struct FieldOnPolygon {
 /// pieces on which each term is one plane: every choice of one plane a term is tried, dropping all choices that begin
 /// with one whose piece is empty.
 template <class Sum>
-TALUS_HD void add_depth(const Polygon& polygon, FieldOnPolygon& here, const LocalVec3& normal, Sum& sum) {
+TALUS_HD TALUS_DEVICE_CALL void add_depth(const Polygon& polygon, FieldOnPolygon& here, const LocalVec3& normal,
+                                          Sum& sum) {
   ScratchArray<std::uint8_t, kMostTermsOnPolygon> choice;
   for (int t = 0; t < here.term_count; ++t) choice[t] = 0;
-  Polygon buffer[2];
   while (true) {
-    ShrinkingPolygon shrinking{&polygon, buffer};
+    ShrinkingPolygon shrinking{polygon};
     int level = 0;
     for (; level < here.term_count; ++level) {
       const LocalHalfSpace* planes = here.term_plane.data() + here.term[level].first;
       const int chosen = choice[level];
-      for (int k = 0; k < here.term[level].count && shrinking.piece; ++k)
-        if (k != chosen) shrinking.keep(lower_side(planes[k], planes[chosen]), chosen < k);
-      if (!shrinking.piece) break;
+      for (int k = 0; k < here.term[level].count && !shrinking.is_empty; ++k)
+        if (k != chosen && !shrinking.keep(lower_side(planes[k], planes[chosen]), chosen < k)) {
+          sum.is_truncated = true;
+          return;
+        }
+      if (shrinking.is_empty) break;
       here.plane[here.plane_count + level] = planes[chosen];
     }
-    if (shrinking.piece) {
-      if (shrinking.piece->is_truncated) sum.is_truncated = true;
-      add_least_depth(*shrinking.piece, here.plane.data(), here.plane_count + here.term_count, normal, sum);
+    if (!shrinking.is_empty) {
+      if (shrinking.piece.is_truncated) sum.is_truncated = true;
+      add_least_depth(shrinking.piece, here.plane.data(), here.plane_count + here.term_count, normal, sum);
       level = here.term_count - 1;
     }
     while (level >= 0 && ++choice[level] == here.term[level].count) choice[level--] = 0;
@@ -223,26 +219,26 @@ TALUS_HD void add_depth(const Polygon& polygon, FieldOnPolygon& here, const Loca
 class PolygonGrid {
  public:
   TALUS_HD PolygonGrid(const Polygon& polygon, const LocalVec3& normal, int across)
-      : across_(across), axis_{unit_or(polygon.corner[1] - polygon.corner[0], {1, 0, 0}), {}} {
+      : across_(across), axis_{unit_or(polygon.corner(1) - polygon.corner(0), {1, 0, 0}), {}} {
     axis_[1] = cross(normal, axis_[0]);
     for (int k = 0; k < 2; ++k) {
-      low_[k] = high_[k] = dot(axis_[k], polygon.corner[0]);
-      for (int c = 1; c < polygon.count; ++c) {
-        low_[k] = std::min(low_[k], dot(axis_[k], polygon.corner[c]));
-        high_[k] = std::max(high_[k], dot(axis_[k], polygon.corner[c]));
-      }
+      const Lanes along = dot(axis_[k], polygon.corners);
+      low_[k] = least_lane(along);
+      high_[k] = greatest_lane(along);
     }
   }
 
-  /// The part of the polygon in cell (i, j), null if none. Cells share the lines between them, bit for bit.
-  TALUS_HD const Polygon* cell(const Polygon& polygon, int i, int j, Polygon* buffer) const {
+  /// The part of the polygon in cell (i, j); false if it has more corners than fit. Cells share the lines between them,
+  /// bit for bit.
+  TALUS_HD bool cut_to_cell(ShrinkingPolygon& polygon, int i, int j) const {
     const int index[2] = {i, j};
-    ShrinkingPolygon shrinking{&polygon, buffer};
-    for (int k = 0; k < 2 && shrinking.piece; ++k) {
-      if (index[k] > 0) shrinking.keep({-axis_[k], -line(k, index[k])}, false);
-      if (index[k] < across_ - 1 && shrinking.piece) shrinking.keep({axis_[k], line(k, index[k] + 1)}, true);
+    bool fits = true;
+    for (int k = 0; k < 2 && fits && !polygon.is_empty; ++k) {
+      if (index[k] > 0) fits = polygon.keep({-axis_[k], -line(k, index[k])}, false);
+      if (index[k] < across_ - 1 && fits && !polygon.is_empty)
+        fits = polygon.keep({axis_[k], line(k, index[k] + 1)}, true);
     }
-    return shrinking.piece;
+    return fits;
   }
 
  private:
@@ -255,7 +251,8 @@ class PolygonGrid {
 
 /// Adds a field over a polygon as a whole; false if it has more parts there, or one of more corners, than fit.
 template <class Sum>
-TALUS_HD bool add_depth_at_once(const Polygon& polygon, const DepthField& field, const LocalVec3& normal, Sum& sum) {
+TALUS_HD TALUS_DEVICE_CALL bool add_depth_at_once(const Polygon& polygon, const DepthField& field,
+                                                  const LocalVec3& normal, Sum& sum) {
   if (field.term_count == 0 && field.plane_count <= NearField::kMostPlanes) {
     add_least_depth(polygon, field.planes, field.plane_count, normal, sum);
     return !sum.is_truncated;
@@ -271,28 +268,32 @@ template <class Sum>
 TALUS_HD bool add_depth_by_cells(const Polygon& polygon, const DepthField& field, const LocalVec3& normal, int across,
                                  Sum& sum) {
   const PolygonGrid grid(polygon, normal, across);
-  Polygon buffer[2];
   for (int i = 0; i < across; ++i)
     for (int j = 0; j < across; ++j) {
-      const Polygon* piece = grid.cell(polygon, i, j, buffer);
-      if (piece && !add_depth_at_once(*piece, field, normal, sum)) return false;
+      ShrinkingPolygon cell{polygon};
+      if (!grid.cut_to_cell(cell, i, j)) return false;
+      if (!cell.is_empty && !add_depth_at_once(cell.piece, field, normal, sum)) return false;
     }
   return true;
 }
 
 /// Integrates a depth field over a polygon.
 template <class Sum, class Profile>
-TALUS_HD Sum integrate_depth(const Polygon& polygon, const DepthField& field, const LocalVec3& normal,
-                             const Profile& profile) {
+TALUS_HD TALUS_DEVICE_CALL Sum integrate_depth(const Polygon& polygon, const DepthField& field, const LocalVec3& normal,
+                                               const Profile& profile) {
   Sum empty;
   empty.profile = profile;
-  empty.origin = MomentOrigin::at(polygon.corner[0]);
+  empty.origin = MomentOrigin::at(polygon.corner(0));
   Sum sum = empty;
   if (add_depth_at_once(polygon, field, normal, sum)) return sum;
+  // Halves have room for more corners.
   constexpr int kMostAcross = 32;
-  for (int across = 2; across <= kMostAcross; across *= 2) {
+  for (int across = 1; across <= kMostAcross; across *= 2) {
     sum = empty;
-    if (add_depth_by_cells(polygon, field, normal, across, sum)) return sum;
+    const bool fits = polygon.count > 4 ? add_depth_by_cells(half_of(polygon, false), field, normal, across, sum) &&
+                                              add_depth_by_cells(half_of(polygon, true), field, normal, across, sum)
+                                        : add_depth_by_cells(polygon, field, normal, across, sum);
+    if (fits) return sum;
   }
   sum.is_truncated = true;
   return sum;

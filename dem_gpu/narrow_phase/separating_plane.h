@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 
 #include "dem_gpu/narrow_phase/part_vertices.h"
 
@@ -11,73 +13,109 @@ namespace dem_gpu {
 /// bodies changes little in a step, so trying it first settles most separated pairs.
 using SeparatingPlane = std::int16_t;
 
-/// True if all vertices of `part` lie outside the plane, given in the frame that `to_plane` leads to.
-TALUS_HD inline bool lies_outside(const PartView& part, const HalfSpace& plane, const FrameChange& to_plane) {
+/// How far outside the plane, given in the frame that `to_plane` leads to, all vertices of `part` lie, in that frame's
+/// lengths [m]; negative if one lies inside.
+TALUS_HD TALUS_DEVICE_CALL inline Real distance_outside(const PartView& part, const HalfSpace& plane,
+                                                        const FrameChange& to_plane) {
   // The plane in the part's own frame: one transformation instead of one per vertex.
-  const Vec3 normal = to_plane.scale * transpose_times(to_plane.rotation, plane.normal);
-  const Real offset = plane.offset - dot(plane.normal, to_plane.translation);
-  for (int v = 0; v < part.range.vertex_count; ++v)
-    if (dot(normal, part.vertices[v]) < offset) return false;
-  return true;
+  const HalfSpace own{to_plane.scale * transpose_times(to_plane.rotation, plane.normal),
+                      plane.offset - dot(plane.normal, to_plane.translation)};
+  const int blocks = (part.range.vertex_count + kLanes - 1) / kLanes;
+  Real deepest = -std::numeric_limits<Real>::max();
+  for (int i = 0; i < blocks; ++i)
+    deepest = std::max(deepest, greatest_lane(depths_below(own, widened(load_points(part.vertex_blocks[i])))));
+  return -deepest;
 }
 
 /// Planes within this distance, over the size of the two parts, count as one: above the rounding of vertices and planes
 /// (a few units in the last place), far below any overlap that matters.
 constexpr Real kCoplanarity = local_tolerance(1e-12, 1e-6);
 
+/// A set of faces of a part, or of the planes of one: a bit each.
+struct FaceSet {
+  static_assert(kMaxPartFaces <= 128);
+  std::uint64_t low = 0, high = 0;
+
+  TALUS_HD static FaceSet all() { return {~std::uint64_t{0}, ~std::uint64_t{0}}; }
+  TALUS_HD bool is_empty() const { return (low | high) == 0; }
+  TALUS_HD bool has(int i) const { return ((i < 64 ? low : high) >> (i & 63) & 1) != 0; }
+  TALUS_HD void add(const FaceSet& more) { low |= more.low, high |= more.high; }
+  TALUS_HD void add(int i) {
+    const std::uint64_t bit = std::uint64_t{1} << (i & 63);
+    low |= i < 64 ? bit : 0;
+    high |= i < 64 ? 0 : bit;
+  }
+};
+
 /// On which side of the planes of a convex solid a set of vertices lies.
 struct PlaneSides {
-  ScratchArray<std::uint64_t, kMaxPartFaces> outside;  // of each cutting plane: bit v for a vertex in front of it
-  ScratchArray<std::uint8_t, kMaxPartFaces> plane;     // faces whose planes have vertices in front: they cut
+  // Of each cutting plane: bit v for a vertex in front of it. Empty sets fill up the last eight.
+  ScratchArray<std::uint64_t, kMaxPartFaces + kLanes> outside;
+  ScratchArray<std::uint8_t, kMaxPartFaces + kLanes> plane;  // faces whose planes have vertices in front: they cut
   int plane_count;
   ScratchArray<std::uint8_t, kMaxPartFaces> coplanar;  // faces whose planes hold three vertices and more
   int coplanar_count;
+
+  TALUS_HD void fill_up() {
+    for (int k = plane_count; k < plane_count + kLanes; ++k) outside[k] = 0;
+  }
+  /// The fewest of the vertices that any plane leaves inside; that one is the first.
+  TALUS_HD int least_inside(const PartVertices& vertices) const {
+    return plane_count > 0 ? vertices.count - count_bits(outside[0]) : vertices.count;
+  }
 };
 
 /// Bit v for a vertex higher than `height` over the plane.
 TALUS_HD inline std::uint64_t vertices_above(const LocalHalfSpace& plane, const PartVertices& vertices,
                                              LocalReal height) {
-  LaneBits above{};
-  for (int first = 0; first < vertices.padded_count; first += kLanes)
-    above |= bits_above(vertices.height_over(plane, first), height, first);
-  return join(above);
+  const Lanes limit = every_lane<Lanes>(-height);
+  std::uint64_t above = 0;
+  for (int i = 0; i < vertices.block_count(); ++i)
+    above |= std::uint64_t{lanes_above(limit, depths_below(plane, vertices.block(i)))} << (i * kLanes);
+  return above;
 }
 
 /// Sorts the vertices (in the solid's frame) by the solid's planes, after Cohen and Sutherland's outcodes. Where three
 /// vertices and more lie within `tolerance` [m] of a plane, a face may lie flush in it and they all count as inside;
 /// one or two count as they lie, since the plane of a face that is nearly flush would be cut up to tolerance / angle
 /// away. Returns a face whose plane has all vertices in front, or -1.
-TALUS_HD inline int classify(const PartView& solid, const PartVertices& vertices, LocalReal tolerance,
-                             PlaneSides& sides) {
-  const std::uint64_t all = ~std::uint64_t{0} >> (64 - vertices.count);
-  sides.plane_count = sides.coplanar_count = 0;
-  int most_in_front = 0, best = 0;
+TALUS_HD TALUS_DEVICE_CALL inline int classify(const PartView& solid, const PartVertices& vertices, LocalReal tolerance,
+                                               PlaneSides& sides) {
+  const std::uint64_t all = vertices.all();
+  const Lanes clearly_above = every_lane<Lanes>(-tolerance), hardly_below = every_lane<Lanes>(tolerance);
+  int cutting = 0, coplanar = 0, most_in_front = 0, best = 0;
   for (int f = 0; f < solid.range.face_count; ++f) {
     const LocalHalfSpace plane = solid.planes[f];
-    LaneBits in_front_lanes{}, touching_lanes{};
-    for (int first = 0; first < vertices.padded_count; first += kLanes) {
-      const Lanes height = vertices.height_over(plane, first);
-      in_front_lanes |= bits_above(height, tolerance, first);
-      touching_lanes |= bits_above(height, -tolerance, first);
+    std::uint64_t in_front = 0, touching = 0;
+    for (int i = 0; i < vertices.block_count(); ++i) {
+      const Lanes depth = depths_below(plane, vertices.block(i));
+      in_front |= std::uint64_t{lanes_above(clearly_above, depth)} << (i * kLanes);
+      touching |= std::uint64_t{lanes_above(hardly_below, depth)} << (i * kLanes);
     }
-    std::uint64_t in_front = join(in_front_lanes) & all;
-    const std::uint64_t touching = join(touching_lanes) & all & ~in_front;
-    // Three bits and more: clearing the lowest two leaves some.
-    const std::uint64_t without_lowest = touching & (touching - 1);
-    const bool is_coplanar = (without_lowest & (without_lowest - 1)) != 0;
-    if (touching != 0 && !is_coplanar) in_front |= vertices_above(plane, vertices, 0) & all;
+    in_front &= all;
+    touching &= all & ~in_front;
+    if (touching != 0) {
+      // Three bits and more: clearing the lowest two leaves some.
+      const std::uint64_t without_lowest = touching & (touching - 1);
+      const bool is_coplanar = (without_lowest & (without_lowest - 1)) != 0;
+      if (is_coplanar)
+        sides.coplanar[coplanar++] = static_cast<std::uint8_t>(f);
+      else
+        in_front |= vertices_above(plane, vertices, 0) & all;
+    }
     if (in_front == all) return f;
-    if (in_front != 0) {
-      const int count = count_bits(in_front);
-      sides.outside[sides.plane_count] = in_front;
-      sides.plane[sides.plane_count] = static_cast<std::uint8_t>(f);
-      if (count > most_in_front) most_in_front = count, best = sides.plane_count;
-      ++sides.plane_count;
-    }
-    if (is_coplanar) sides.coplanar[sides.coplanar_count++] = static_cast<std::uint8_t>(f);
+    sides.outside[cutting] = in_front;
+    sides.plane[cutting] = static_cast<std::uint8_t>(f);
+    const int count = count_bits(in_front);
+    best = count > most_in_front ? cutting : best;
+    most_in_front = count > most_in_front ? count : most_in_front;
+    cutting += static_cast<int>(in_front != 0);
   }
+  sides.plane_count = cutting;
+  sides.coplanar_count = coplanar;
+  sides.fill_up();
   // The plane with most vertices in front comes first: it settles most faces at once.
-  if (sides.plane_count > 1) {
+  if (cutting > 1) {
     const std::uint64_t outside = sides.outside[best];
     const std::uint8_t plane = sides.plane[best];
     sides.outside[best] = sides.outside[0];

@@ -64,6 +64,7 @@ struct UpdateGhost {
     bodies.predicted_angular_velocity[i] = bodies.predicted_angular_velocity[owner];
     bodies.mean_velocity[i] = bodies.mean_velocity[owner];
     bodies.mean_angular_velocity[i] = bodies.mean_angular_velocity[owner];
+    bodies.contact_share[i] = bodies.contact_share[owner];
   }
 };
 
@@ -168,6 +169,7 @@ void fit_columns_to_ghosts(const Model& model, State& state) {
   BodyColumns& bodies = state.bodies;
   bodies.active.resize(count);
   bodies.orientation.resize(count);
+  bodies.contact_share.resize(count);
   for (DeviceVector<Vec3>* column : {&bodies.position, &bodies.predicted_velocity, &bodies.predicted_angular_velocity,
                                      &bodies.mean_velocity, &bodies.mean_angular_velocity})
     column->resize(count);

@@ -105,7 +105,8 @@ void check_partition(const Shape& shape) {
     for (int j = i + 1; j < columns.shapes[0].part_count; ++j) {
       VolumeIntegrals integrals;
       SeparatingPlane separating = 0;
-      integrate_overlap(part_view(shapes, i), part_view(shapes, j), same, same, separating, integrals);
+      Real distance = 0;
+      integrate_overlap(part_view(shapes, i), part_view(shapes, j), same, same, separating, integrals, distance);
       shared += std::max(Real(0), integrals.volume);
     }
   if (shared > kLargestOverlap * shape.volume)

@@ -24,6 +24,58 @@ void append(std::vector<LocalHalfSpace>& planes, const std::vector<HalfSpace>& m
   for (const HalfSpace& plane : more) planes.push_back(rounded(plane));
 }
 
+/// Cuts a face of many corners by diagonals from its first.
+void append_pieces(HostShapeColumns& columns, FaceCorners& face) {
+  face.first_piece = static_cast<int>(columns.face_pieces.size());
+  const std::uint8_t* corner = columns.corners.data() + face.first;
+  int next = 1;  // corner after the last piece's diagonal
+  do {
+    FacePiece piece;
+    std::fill(std::begin(piece.corner.lane), std::end(piece.corner.lane), corner[0]);
+    piece.count = 1;
+    for (int c = next; c < face.count && piece.count < kLanes; ++c) piece.corner.lane[piece.count++] = corner[c];
+    next += piece.count - 2;
+    columns.face_pieces.push_back(piece);
+  } while (next + 1 < face.count);
+  face.piece_count = static_cast<int>(columns.face_pieces.size()) - face.first_piece;
+}
+
+void append_vertex_blocks(HostShapeColumns& columns, PartRange& part) {
+  part.first_vertex_block = static_cast<int>(columns.vertex_blocks.size());
+  for (int first = 0; first < part.vertex_count; first += kLanes) {
+    VertexBlock block;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const int v = part.first_vertex + std::min(first + lane, part.vertex_count - 1);
+      const LocalVec3& vertex = columns.vertices[static_cast<std::size_t>(v)];
+      block.x[lane] = vertex.x, block.y[lane] = vertex.y, block.z[lane] = vertex.z;
+    }
+    columns.vertex_blocks.push_back(block);
+  }
+}
+
+/// Faces in one plane have its first face's number. The tolerance is far above rounding, far below any real step.
+void find_shared_planes(HostShapeColumns& columns, const PartRange& part) {
+  constexpr Real kTolerance = local_tolerance(1e-9, 1e-5);
+  const auto lies_in = [&](const FaceCorners& face, const HalfSpace& plane) {
+    for (int c = face.first; c < face.first + face.count; ++c) {
+      const int v = part.first_vertex + columns.corners[static_cast<std::size_t>(c)];
+      if (std::abs(depth_below<Real>(plane, columns.vertices[static_cast<std::size_t>(v)])) > kTolerance * part.radius)
+        return false;
+    }
+    return true;
+  };
+  for (int f = 0; f < part.face_count; ++f) {
+    const auto row = [&](int face) { return static_cast<std::size_t>(part.first_face + face); };
+    columns.faces[row(f)].plane = f;
+    const HalfSpace own = columns.planes[row(f)];
+    for (int g = f - 1; g >= 0; --g) {
+      const HalfSpace other = columns.planes[row(g)];
+      if (dot(own.normal, other.normal) > 0 && lies_in(columns.faces[row(f)], other))
+        columns.faces[row(f)].plane = columns.faces[row(g)].plane;
+    }
+  }
+}
+
 PartRange append_part(HostShapeColumns& columns, const ConvexPart& part) {
   PartRange range;
   range.first_vertex = static_cast<int>(columns.vertices.size());
@@ -37,6 +89,7 @@ PartRange append_part(HostShapeColumns& columns, const ConvexPart& part) {
     low = {std::min(low.x, vertex.x), std::min(low.y, vertex.y), std::min(low.z, vertex.z)};
     high = {std::max(high.x, vertex.x), std::max(high.y, vertex.y), std::max(high.z, vertex.z)};
   }
+  append_vertex_blocks(columns, range);
   range.centre = Real(0.5) * (low + high);
   for (auto vertex = columns.vertices.begin() + range.first_vertex; vertex != columns.vertices.end(); ++vertex)
     range.radius = std::max(range.radius, norm(Vec3(*vertex) - range.centre));
@@ -49,9 +102,11 @@ PartRange append_part(HostShapeColumns& columns, const ConvexPart& part) {
         columns.corners.push_back(static_cast<std::uint8_t>(vertex));
         corners.vertices |= std::uint64_t{1} << vertex;
       }
+      append_pieces(columns, corners);
       columns.faces.push_back(corners);
       if (kind == FaceKind::outer) ++range.outer_face_count;
     }
+  find_shared_planes(columns, range);
   return range;
 }
 
@@ -94,11 +149,14 @@ int copy_entries(const std::vector<Entry>& from, int first, int count, std::vect
 
 void copy_part(const HostShapeColumns& from, PartRange part, HostShapeColumns& to) {
   part.first_vertex = copy_entries(from.vertices, part.first_vertex, part.vertex_count, to.vertices);
+  part.first_vertex_block = copy_entries(from.vertex_blocks, part.first_vertex_block,
+                                         (part.vertex_count + kLanes - 1) / kLanes, to.vertex_blocks);
   copy_entries(from.planes, part.first_face, part.face_count, to.planes);
   part.first_face = copy_entries(from.faces, part.first_face, part.face_count, to.faces);
   for (int f = part.first_face; f < part.first_face + part.face_count; ++f) {
     FaceCorners& face = to.faces[static_cast<std::size_t>(f)];
     face.first = copy_entries(from.corners, face.first, face.count, to.corners);
+    face.first_piece = copy_entries(from.face_pieces, face.first_piece, face.piece_count, to.face_pieces);
   }
   part.first_depth_plane =
       copy_entries(from.depth_planes, part.first_depth_plane, part.depth_plane_count, to.depth_planes);
@@ -140,6 +198,8 @@ ShapeColumns to_device(const HostShapeColumns& host) {
   assign(columns.planes, host.planes);
   assign(columns.faces, host.faces);
   assign(columns.corners, host.corners);
+  assign(columns.face_pieces, host.face_pieces);
+  assign(columns.vertex_blocks, host.vertex_blocks);
   assign(columns.depth_planes, host.depth_planes);
   assign(columns.depth_terms, host.depth_terms);
   assign(columns.term_planes, host.term_planes);
@@ -147,9 +207,10 @@ ShapeColumns to_device(const HostShapeColumns& host) {
 }
 
 HostShapeColumns to_host(const ShapeColumns& columns) {
-  return {to_host(columns.shapes),       to_host(columns.parts),       to_host(columns.vertices),
-          to_host(columns.planes),       to_host(columns.faces),       to_host(columns.corners),
-          to_host(columns.depth_planes), to_host(columns.depth_terms), to_host(columns.term_planes)};
+  return {to_host(columns.shapes),      to_host(columns.parts),         to_host(columns.vertices),
+          to_host(columns.planes),      to_host(columns.faces),         to_host(columns.corners),
+          to_host(columns.face_pieces), to_host(columns.vertex_blocks), to_host(columns.depth_planes),
+          to_host(columns.depth_terms), to_host(columns.term_planes)};
 }
 
 HostShapeColumns chosen_shapes(const HostShapeColumns& columns, const std::vector<int>& rows) {
@@ -166,15 +227,17 @@ HostShapeColumns chosen_shapes(const HostShapeColumns& columns, const std::vecto
 }
 
 ShapeView view(const ShapeColumns& columns) {
-  return {pointer(columns.shapes),       pointer(columns.parts),       pointer(columns.vertices),
-          pointer(columns.planes),       pointer(columns.faces),       pointer(columns.corners),
-          pointer(columns.depth_planes), pointer(columns.depth_terms), pointer(columns.term_planes)};
+  return {pointer(columns.shapes),      pointer(columns.parts),         pointer(columns.vertices),
+          pointer(columns.planes),      pointer(columns.faces),         pointer(columns.corners),
+          pointer(columns.face_pieces), pointer(columns.vertex_blocks), pointer(columns.depth_planes),
+          pointer(columns.depth_terms), pointer(columns.term_planes)};
 }
 
 ShapeView view(const HostShapeColumns& columns) {
-  return {columns.shapes.data(),       columns.parts.data(),       columns.vertices.data(),
-          columns.planes.data(),       columns.faces.data(),       columns.corners.data(),
-          columns.depth_planes.data(), columns.depth_terms.data(), columns.term_planes.data()};
+  return {columns.shapes.data(),      columns.parts.data(),         columns.vertices.data(),
+          columns.planes.data(),      columns.faces.data(),         columns.corners.data(),
+          columns.face_pieces.data(), columns.vertex_blocks.data(), columns.depth_planes.data(),
+          columns.depth_terms.data(), columns.term_planes.data()};
 }
 
 }  // namespace dem_gpu

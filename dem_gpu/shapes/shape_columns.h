@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "dem_gpu/core/device_vector.h"
+#include "dem_gpu/core/lanes.h"
 #include "dem_gpu/core/vec3.h"
 #include "dem_gpu/scene.h"
 
@@ -37,6 +38,7 @@ requires(sizeof(Wide) > sizeof(LocalReal)) TALUS_HD inline LocalHalfSpace rounde
 
 struct PartRange {
   int first_vertex = 0, vertex_count = 0;
+  int first_vertex_block = 0;          // of (vertex_count + 7) / 8
   int first_face = 0, face_count = 0;  // outer faces first
   int outer_face_count = 0;
   int first_depth_plane = 0, depth_plane_count = 0;
@@ -49,8 +51,22 @@ struct FaceCorners {
   int first = 0;  // into corners
   int count = 0;
   std::uint64_t vertices = 0;  // the same corners as a set: bit v for vertex v of the part
+  int first_piece = 0;         // into face_pieces
+  int piece_count = 0;
+  int plane = 0;  // first face of the part in the same plane: a flat side may be several faces
 };
 static_assert(kMaxPartVertices <= 64);
+
+/// A face, or a convex piece of one with more than kLanes corners: lanes beyond the corners repeat the first.
+struct FacePiece {
+  LaneOrder corner;  // vertices of the part
+  int count = 0;     // of corners
+};
+
+/// Eight vertices of a part, one array a coordinate; those beyond the last one repeat it.
+struct VertexBlock {
+  LocalReal x[kLanes], y[kLanes], z[kLanes];  // [m]
+};
 
 /// Term of a depth field: the greatest of the depths below a few planes.
 struct DepthTerm {
@@ -75,6 +91,8 @@ struct ShapeColumns {
   DeviceVector<LocalHalfSpace> planes;  // n_faces
   DeviceVector<FaceCorners> faces;      // n_faces
   DeviceVector<std::uint8_t> corners;   // vertex of the part, per corner of a face
+  DeviceVector<FacePiece> face_pieces;
+  DeviceVector<VertexBlock> vertex_blocks;  // the vertices again, for work on eight at a time
   // The body's depth field in a part: the least of the depths below depth_planes and of the depth terms.
   DeviceVector<LocalHalfSpace> depth_planes;
   DeviceVector<DepthTerm> depth_terms;
@@ -89,6 +107,8 @@ struct HostShapeColumns {
   std::vector<LocalHalfSpace> planes;
   std::vector<FaceCorners> faces;
   std::vector<std::uint8_t> corners;
+  std::vector<FacePiece> face_pieces;
+  std::vector<VertexBlock> vertex_blocks;
   std::vector<LocalHalfSpace> depth_planes;
   std::vector<DepthTerm> depth_terms;
   std::vector<LocalHalfSpace> term_planes;
@@ -101,6 +121,8 @@ struct ShapeView {
   const LocalHalfSpace* planes;
   const FaceCorners* faces;
   const std::uint8_t* corners;
+  const FacePiece* face_pieces;
+  const VertexBlock* vertex_blocks;
   const LocalHalfSpace* depth_planes;
   const DepthTerm* depth_terms;
   const LocalHalfSpace* term_planes;

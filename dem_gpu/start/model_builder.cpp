@@ -131,6 +131,7 @@ void set_bodies(const Scene& scene, const PreparedShapes& prepared, BodyConstant
        {&columns.force, &columns.torque, &columns.predicted_velocity, &columns.predicted_angular_velocity,
         &columns.mean_velocity, &columns.mean_angular_velocity, &columns.listed_position})
     column->assign(n, Vec3{});
+  columns.contact_share.assign(n, Real(1));
   columns.listed_displacement.assign(n, Real(0));
   std::vector<Vec3> force(n);
   for (std::size_t i = 0; i < n; ++i) force[i] = mass[i] * scene.gravity;
@@ -174,6 +175,8 @@ Model make_model(const Scene& scene, PreparedShapes shapes, BodyColumns& at_star
       std::find(model.body_is_sphere.begin(), model.body_is_sphere.end(), 1) != model.body_is_sphere.end();
   model.features.has_polyhedra =
       std::find(model.body_is_sphere.begin(), model.body_is_sphere.end(), 0) != model.body_is_sphere.end();
+  model.features.has_waiting_pairs = model.features.has_polyhedra && !scene.periodic;
+  if (model.features.has_waiting_pairs) at_start.travel.assign(scene.bodies.size(), Real(0));
   model.features.has_friction_couples =
       has_rolling_friction(scene) || (model.features.has_friction && model.features.has_polyhedra);
   model.time_step = time_step(scene);

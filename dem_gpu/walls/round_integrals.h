@@ -33,7 +33,7 @@ struct GaussRule {
 template <class Integrals>
 class RoundFace {
  public:
-  TALUS_HD RoundFace(const RoundSurface& round, const Polygon& face, const Vec3& normal, bool is_outer)
+  TALUS_HD RoundFace(const RoundSurface& round, const FacePolygon& face, const Vec3& normal, bool is_outer)
       : round_(round),
         face_(face),
         normal_(normal),
@@ -161,7 +161,7 @@ class RoundFace {
   }
 
   const RoundSurface& round_;
-  const Polygon& face_;
+  const FacePolygon& face_;
   const Vec3 normal_;
   const bool is_outer_;
   const bool is_within_;  // the wall's solid is within its surface
@@ -169,7 +169,7 @@ class RoundFace {
 };
 
 /// Face f of a part, in the world's axes about the body's centre.
-TALUS_HD inline void placed_face(const PartView& part, const Pose& pose, int f, Polygon& face) {
+TALUS_HD inline void placed_face(const PartView& part, const Pose& pose, int f, FacePolygon& face) {
   const FaceCorners corners = part.faces[f];
   face.count = corners.count;
   face.is_truncated = false;
@@ -190,7 +190,7 @@ TALUS_HD bool integrate_part_on_round_wall(const PartView& part, const Pose& pos
   const LocalHalfSpace ends[2] = {rounded(HalfSpace{-round.axis, -dot(round.axis, round.point)}),
                                   rounded(HalfSpace{round.axis, dot(round.axis, top)})};
   const Real largest = std::max(wall.base_radius, wall.top_radius);
-  Polygon buffer[2];
+  FacePolygon buffer[2];
   for (int f = 0; f < part.range.face_count; ++f) {
     const HalfSpace plane{pose.rotation * part.planes[f].normal, pose.scale * part.planes[f].offset};
     if (wall.solid_within) {
@@ -207,7 +207,7 @@ TALUS_HD bool integrate_part_on_round_wall(const PartView& part, const Pose& pos
         clip(buffer[current], end, buffer[1 - current]);
         current = 1 - current;
       }
-    const Polygon& face = buffer[current];
+    const FacePolygon& face = buffer[current];
     if (face.is_truncated) return false;
     bool touches = wall.solid_within && face.count > 0;
     for (int c = 0; c < face.count && !touches; ++c) touches = RoundLine(round, face.corner[c], {}).c > 0;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dem_gpu/narrow_phase/polygon.h"
+#include "dem_gpu/narrow_phase/face_polygon.h"
 #include "dem_gpu/walls/wall_surface.h"
 
 namespace dem_gpu {
@@ -101,7 +101,7 @@ struct GapPoint {
 
 /// Where the gap is least on a face: on an edge, or where the axis pierces the face, or at the foot of the ball's
 /// centre (from the point on the axis the gap is linear along each ray, so a least one elsewhere lies on an edge).
-TALUS_HD inline GapPoint least_gap(const RoundSurface& round, const Polygon& face, const Vec3& normal) {
+TALUS_HD inline GapPoint least_gap(const RoundSurface& round, const FacePolygon& face, const Vec3& normal) {
   GapPoint least;
   const bool is_ball = round.axis == Vec3{};
   const Vec3 direction = is_ball ? normal : round.axis;

@@ -65,7 +65,7 @@ struct WallIntegralsOf {
   TALUS_HD void add_polygon(const Polygon& polygon, const LocalHalfSpace& plane, const Vec3& normal, bool is_outer) {
     std::conditional_t<kHasPatch, PolygonPatchDepthOf<Profile>, PolygonDepthOf<Profile>> sum;
     sum.profile = profile;
-    sum.origin = MomentOrigin::at(polygon.corner[0]);
+    sum.origin = MomentOrigin::at(polygon.corner(0));
     add_linear_depth(polygon, plane, rounded(normal), sum);
     WallPiece piece{sum.depth, sum.central_moment(), sum.area, 0};
     if constexpr (kHasPatch) piece.second_moment = sum.central_second_moment();

@@ -60,6 +60,7 @@ const Library kLibraries[] = {
     {"CGAL", "CGAL/.*", "(shape_pipeline|decomposition)/.*\\.cpp"},
     {"Boost", "boost/.*", "(shape_pipeline|decomposition)/.*\\.cpp"},
     {"TBB", "(oneapi/)?tbb/.*", "(shape_pipeline|decomposition|workflows)/.*\\.cpp|dem_gpu/core/.*"},
+    {"vector instructions", "immintrin\\.h", "dem_gpu/core/.*"},
     {"OpenMP", "omp\\.h", "workflows/.*\\.cpp|dem_gpu/core/.*"},
     {"VTK", "vtk[A-Za-z0-9_]*\\.h", "postprocess/.*\\.cpp"},
     {"SQLite", "sqlite3\\.h", "catalog/.*\\.cpp|catalog/.+/.*\\.h"},

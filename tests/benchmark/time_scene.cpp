@@ -15,6 +15,7 @@
 #include "tests/benchmark/scenes/resumed_scene.h"
 #include "tests/benchmark/scenes/settling.h"
 #include "tests/benchmark/scenes/speed_scenes.h"
+#include "tests/benchmark/scenes/tiled_bed.h"
 
 namespace {
 
@@ -22,10 +23,11 @@ using benchmark_scenes::SceneOptions;
 
 constexpr char kUsage[] =
     "usage: time_scene NAME [--law depth|volume] [--bodies N] [--overlap SHARE] [--steps-per-contact N] [--ledger]\n"
-    "                  [--settle SECONDS | --settled] [--window SECONDS] [--windows N] [--keep FOLDER]\n"
+    "                  [--settle SECONDS | --settled [--tiles N]] [--window SECONDS] [--windows N] [--keep FOLDER]\n"
     "NAME: s1-box s1-drum s2 s3 s4 hopper-4 hopper-8 mill-4 mill-8\n"
     "--settled: from where talus bench speed starts its windows, after 500 steps, instead of settling at full "
     "accuracy\n"
+    "--tiles: N x N settled boxes side by side (s1-box, s2, s3)\n"
     "--keep: settle once; later runs go on from the checkpoint in FOLDER\n";
 
 struct Options {
@@ -35,10 +37,32 @@ struct Options {
   double window = benchmark_scenes::kWindow;
   int windows = benchmark_scenes::kWindows;
   bool is_settled = false;
+  int tiles = 1;
   std::filesystem::path keep;
 };
 
 constexpr int kResettlingSteps = 500;
+
+double number(const std::string& name, const std::string& value) {
+  std::size_t end = 0;
+  double found = 0;
+  try {
+    found = std::stod(value, &end);
+  } catch (const std::logic_error&) {
+    end = 0;
+  }
+  if (end == 0 || end != value.size() || !(found >= 0))
+    throw std::invalid_argument(name + " takes a number of 0 or more, not '" + value + "'");
+  return found;
+}
+
+int count(const std::string& name, const std::string& value) { return static_cast<int>(number(name, value)); }
+
+benchmark_scenes::Law law(const std::string& value) {
+  if (value == "volume") return benchmark_scenes::Law::overlap_volume;
+  if (value == "depth") return benchmark_scenes::Law::depth_potential;
+  throw std::invalid_argument("--law takes depth or volume, not '" + value + "'");
+}
 
 Options parsed(int argc, char** argv) {
   if (argc < 2) throw std::invalid_argument("no NAME");
@@ -57,25 +81,28 @@ Options parsed(int argc, char** argv) {
     if (++i == argc) throw std::invalid_argument(name + " needs a value");
     const std::string value = argv[i];
     if (name == "--law")
-      options.of_scene.law =
-          value == "volume" ? benchmark_scenes::Law::overlap_volume : benchmark_scenes::Law::depth_potential;
+      options.of_scene.law = law(value);
     else if (name == "--bodies")
-      options.of_scene.bodies = std::stoi(value);
+      options.of_scene.bodies = count(name, value);
     else if (name == "--overlap")
-      options.of_scene.flat_overlap = std::stod(value);
+      options.of_scene.flat_overlap = number(name, value);
     else if (name == "--steps-per-contact")
-      options.of_scene.steps_per_contact = std::stod(value);
+      options.of_scene.steps_per_contact = number(name, value);
     else if (name == "--settle")
-      options.settle = std::stod(value);
+      options.settle = number(name, value);
     else if (name == "--window")
-      options.window = std::stod(value);
+      options.window = number(name, value);
     else if (name == "--windows")
-      options.windows = std::stoi(value);
+      options.windows = count(name, value);
+    else if (name == "--tiles")
+      options.tiles = count(name, value);
     else if (name == "--keep")
       options.keep = value;
     else
       throw std::invalid_argument("unknown option " + name);
   }
+  if (options.tiles != 1 && (!options.is_settled || options.of_scene.bodies > 0))
+    throw std::invalid_argument("--tiles goes with --settled and without --bodies");
   return options;
 }
 
@@ -133,13 +160,22 @@ void print_state(const dem_gpu::Simulation& simulation) {
     std::printf("energy imbalance %.3g of what was put in\n", ledger.imbalance() / ledger.throughput);
 }
 
+/// As the options say, bodies where they begin.
+dem_gpu::Scene scene_to_time(const Options& options, const benchmark_scenes::SpeedScene& chosen) {
+  if (!options.is_settled) return chosen.make(options.of_scene);
+  const dem_gpu::Snapshot settled = benchmark_scenes::settle(chosen, options.of_scene.bodies).settled;
+  if (options.tiles == 1) return benchmark_scenes::resumed(chosen.make(options.of_scene), settled);
+  const dem_gpu::Snapshot bed = benchmark_scenes::tiled(chosen, settled, options.tiles);
+  SceneOptions wide = options.of_scene;
+  wide.bodies = static_cast<int>(bed.position.size());
+  return benchmark_scenes::resumed(chosen.make(wide), bed);
+}
+
 void time_scene(const Options& options) {
   const benchmark_scenes::SpeedScene& chosen = benchmark_scenes::speed_scene(options.scene);
-  dem_gpu::Scene scene = chosen.make(options.of_scene);
-  if (options.is_settled)
-    scene = benchmark_scenes::resumed(scene, benchmark_scenes::settle(chosen, options.of_scene.bodies).settled);
-  dem_gpu::Simulation simulation(scene);
-  std::printf("%s: time step %.4g s\n", options.scene.c_str(), simulation.time_step());
+  dem_gpu::Simulation simulation(scene_to_time(options, chosen));
+  std::printf("%d bodies begin\n%s: time step %.4g s\n", simulation.bulk().active_bodies, options.scene.c_str(),
+              simulation.time_step());
   if (options.is_settled)
     simulation.advance(kResettlingSteps);
   else

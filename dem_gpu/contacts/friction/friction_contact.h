@@ -46,6 +46,7 @@ struct FrictionContact {
   Real effective_mass;         // that an impulse along the normal meets [kg]
   Real diameter;               // equivalent, of the smaller body [m]
   Real time_step;              // [s]
+  Real contact_share;          // of the body that has more contacts: 1 / number of them [-]
   RelativeMotion mean{};       // over the step: moves the springs
   RelativeMotion predicted{};  // for the end of the step: damping
   Vec3 mean_spin{};            // mean angular velocity of a and b over the step [rad/s]

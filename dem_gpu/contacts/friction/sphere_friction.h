@@ -52,14 +52,17 @@ TALUS_HD SphereSpringForce<Number> spring_force(Vector3<Number>& displacement, c
   return found;
 }
 
-/// Dashpot of the tangential spring [N s/m]. `rate`: of its damping, 2 z sqrt(k_t / m) [1/s].
+/// Dashpot of the tangential spring [N s/m]. `rate`: of its damping, 2 z sqrt(k_t / m) [1/s]. `contact_share`: of the
+/// body that has more contacts, FrictionContact.
 template <class Number>
-TALUS_HD Number tangential_dashpot(const Number& rate, const Number& effective_mass, Real time_step) {
+TALUS_HD Number tangential_dashpot(const Number& rate, const Number& effective_mass, const Number& contact_share,
+                                   Real time_step) {
   // The dashpot sees the slip half a step late: from the whole of it a step on, it would swing and add energy. It
-  // takes half of it at most.
+  // takes half of it at most, and all of a body's contacts together the whole.
   constexpr Real kShare = 0.5, kTangentialMass = Real(2) / 7;  // of a solid sphere that can turn, over its mass
   if (!(time_step > 0)) return Number{};
-  return smaller(rate, Number{} + kShare * kTangentialMass / time_step) * effective_mass;
+  const Number share = smaller(Number{} + kShare, contact_share);
+  return smaller(rate, kTangentialMass / time_step * share) * effective_mass;
 }
 
 template <class Number>
@@ -80,7 +83,7 @@ struct SphereFriction {
     const SphereSpringForce<Real> spring = spring_force<Law>(
         contacts.tangential_displacement[c], slip(contacts, c, contact), stiffness,
         tangential_dashpot(2 * contact.pair.sphere_damping * std::sqrt(stiffness / contact.effective_mass),
-                           contact.effective_mass, contact.time_step),
+                           contact.effective_mass, contact.contact_share, contact.time_step),
         contact.time_step);
     FrictionForces friction;
     friction.force = spring.force;

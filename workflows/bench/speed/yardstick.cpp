@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
+#include <iostream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -87,7 +88,11 @@ std::optional<double> liggghts_step_time() {
   // Reading the file and coming to rest again are not what is timed.
   static const std::optional<double> warm_up = particles.cpu_time(kWarmUpSteps);
   const std::optional<double> whole = particles.cpu_time(kWarmUpSteps + kTimedSteps);
-  if (!warm_up || !whole) return std::nullopt;
+  if (!warm_up || !whole) {
+    std::cerr << "bench speed: liggghts is installed but did not run " << kScript.string()
+              << " to its end; no ratios\n";
+    return std::nullopt;
+  }
   return 1e3 * (*whole - *warm_up) / kTimedSteps;
 }
 

@@ -48,7 +48,7 @@ struct OneContact {
     view.tangential_displacement = &slip;
     view.turning_displacement = &spin;
     view.spring_normal = &normal;
-    dem_gpu::FrictionContact contact{elastic, pair, 0, 0.02, 0.02, time_step};
+    dem_gpu::FrictionContact contact{elastic, pair, 0, 0.02, 0.02, time_step, 1};
     contact.mean = contact.predicted = {velocity, angular_velocity};
     energy_before = friction.energy;
     friction = PatchFriction{1}.apply(view, 0, contact, patch);

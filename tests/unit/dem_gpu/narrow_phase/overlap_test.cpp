@@ -223,35 +223,4 @@ TEST(SeparatingPlaneCache, NeverChangesTheResult) {
   EXPECT_GT(overlapping, 1000);
 }
 
-TEST(PolygonClip, KeepsTheAreaInside) {
-  dem_gpu::Polygon square, piece;
-  for (const Vec3& corner : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{1, 1, 0}, Vec3{0, 1, 0}})
-    append(square, rounded(corner));
-  const auto area = [](const dem_gpu::Polygon& polygon) {
-    Real sum = 0;
-    for (int c = 2; c < polygon.count; ++c)
-      sum += 0.5 * cross(polygon.corner[c - 1] - polygon.corner[0], polygon.corner[c] - polygon.corner[0]).z;
-    return sum;
-  };
-  clip(square, rounded(HalfSpace{{1, 0, 0}, 0.3}), piece);
-  EXPECT_NEAR(area(piece), 0.3, 1e-15 + kSingle.position);
-  clip(square, rounded(HalfSpace{{2, 2, 0}, 2}), piece);  // the normal need not be a unit vector
-  EXPECT_NEAR(area(piece), 0.5, 1e-15);
-  EXPECT_EQ(piece.count, 3);
-  clip(square, rounded(HalfSpace{{1, 0, 0}, 1}), piece);
-  EXPECT_NEAR(area(piece), 1, 1e-15) << "a plane through an edge takes nothing away";
-  EXPECT_EQ(piece.count, 4);
-  clip(square, rounded(HalfSpace{{1, 0, 0}, 0}), piece);
-  EXPECT_EQ(piece.count, 0) << "only an edge is left";
-  clip(square, rounded(HalfSpace{{1, 0, 0}, -1}), piece);
-  EXPECT_EQ(piece.count, 0);
-}
-
-TEST(PolygonClip, SaysWhenACornerDoesNotFit) {
-  dem_gpu::Polygon polygon;
-  for (int i = 0; i <= dem_gpu::kMaxPolygonCorners; ++i) append(polygon, {static_cast<dem_gpu::LocalReal>(i), 0, 0});
-  EXPECT_TRUE(polygon.is_truncated);
-  EXPECT_EQ(polygon.count, dem_gpu::kMaxPolygonCorners);
-}
-
 }  // namespace

@@ -15,7 +15,7 @@
 namespace {
 
 using namespace test_support;
-using dem_gpu::Polygon;
+using dem_gpu::FacePolygon;
 using dem_gpu::Pose;
 using dem_gpu::RoundSurface;
 using dem_gpu::WallIntegrals;
@@ -77,7 +77,7 @@ TEST(RoundWall, FaceOnABallAndAShaft) {
 }
 
 /// Section of a convex part at height z of its own frame, placed, counter-clockwise about the turned z axis.
-Polygon section(const catalog::ConvexPart& part, Real z, const Pose& pose) {
+FacePolygon section(const catalog::ConvexPart& part, Real z, const Pose& pose) {
   std::vector<Vec3> points;
   for (const catalog::ConvexFace& face : part.faces)
     for (std::size_t i = 0; i < face.vertices.size(); ++i) {
@@ -91,7 +91,7 @@ Polygon section(const catalog::ConvexPart& part, Real z, const Pose& pose) {
   std::sort(points.begin(), points.end(), [&](const Vec3& a, const Vec3& b) {
     return std::atan2(a.y - middle.y, a.x - middle.x) < std::atan2(b.y - middle.y, b.x - middle.x);
   });
-  Polygon polygon;
+  FacePolygon polygon;
   polygon.count = 0;
   polygon.is_truncated = false;
   for (const Vec3& p : points) append(polygon, dem_gpu::rounded(pose.rotation * p));
@@ -100,7 +100,7 @@ Polygon section(const catalog::ConvexPart& part, Real z, const Pose& pose) {
 
 /// Integral of the wall's depth over one section [m3].
 Real section_integral(const catalog::ConvexPart& part, const WallRecord& wall, const Pose& pose, Real z) {
-  const Polygon polygon = section(part, z, pose);
+  const FacePolygon polygon = section(part, z, pose);
   WallIntegrals integrals;
   if (polygon.count >= 3)
     dem_gpu::RoundFace<WallIntegrals>(RoundSurface(wall, pose.position), polygon, pose.rotation * Vec3{0, 0, 1}, true)
