@@ -7,6 +7,10 @@
 #include "dem_gpu/core/host_device.h"
 #include "dem_gpu/core/intrinsics.h"
 #include "dem_gpu/core/real.h"
+#if defined(__AVX2__) && !defined(__AVX512F__) && !defined(__CUDACC__)
+#define TALUS_LANE_HALVES 1
+#include "dem_gpu/core/lane_halves.h"
+#endif
 
 // Eight numbers of contact geometry worked on together: the corners of a polygon, or eight vertices of a part. One
 // vector register on the CPU (the compiler splits it where registers are shorter), an array on the GPU. Written with
@@ -136,31 +140,46 @@ TALUS_HD inline Lanes gathered(const LocalReal* values, const LaneOrder& order) 
 
 #else
 
-using Lanes = LocalReal __attribute__((vector_size(kLanes * sizeof(LocalReal))));
+#if defined(TALUS_LANE_HALVES)
+using WideLanes = LaneHalves;
+#else
 using WideLanes = Real __attribute__((vector_size(kLanes * sizeof(Real))));
+#endif
 using WideIndex = std::int64_t __attribute__((vector_size(kLanes * sizeof(std::int64_t))));
+
+#if defined(TALUS_MIXED_PRECISION)
+using Lanes = LocalReal __attribute__((vector_size(kLanes * sizeof(LocalReal))));
+using LaneIndex = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
+#if defined(TALUS_LANE_HALVES)
+inline WideLanes widened(const Lanes& a) {
+  const __m256 lanes = __m256(a);
+  return {LaneHalves::Half(_mm256_cvtps_pd(_mm256_castps256_ps128(lanes))),
+          LaneHalves::Half(_mm256_cvtps_pd(_mm256_extractf128_ps(lanes, 1)))};
+}
+inline Lanes rounded(const WideLanes& a) {
+  return Lanes(_mm256_set_m128(_mm256_cvtpd_ps(__m256d(a.high)), _mm256_cvtpd_ps(__m256d(a.low))));
+}
+#else
+inline WideLanes widened(const Lanes& a) { return __builtin_convertvector(a, WideLanes); }
+inline Lanes rounded(const WideLanes& a) { return __builtin_convertvector(a, Lanes); }
+#endif
+#else
+using Lanes = WideLanes;
+#if defined(TALUS_LANE_HALVES)
+using LaneIndex = HalvesIndex;
+#else
+using LaneIndex = WideIndex;
+#endif
+inline WideLanes widened(const Lanes& a) { return a; }
+inline Lanes rounded(const WideLanes& a) { return a; }
+#endif
 
 template <class SomeLanes, class Number>
 SomeLanes every_lane(Number value) {
   return value - SomeLanes{};
 }
-inline Lanes load_lanes(const LocalReal* values) {
-  Lanes lanes;
-  __builtin_memcpy(&lanes, values, sizeof(lanes));
-  return lanes;
-}
-inline void store_lanes(const Lanes& a, LocalReal* values) { __builtin_memcpy(values, &a, sizeof(a)); }
 
-#if defined(TALUS_MIXED_PRECISION)
-using LaneIndex = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
-inline WideLanes widened(const Lanes& a) { return __builtin_convertvector(a, WideLanes); }
-inline Lanes rounded(const WideLanes& a) { return __builtin_convertvector(a, Lanes); }
-#else
-using LaneIndex = WideIndex;
-inline WideLanes widened(const Lanes& a) { return a; }
-inline Lanes rounded(const WideLanes& a) { return a; }
-#endif
-
+// Of a vector type.
 template <class SomeLanes>
 SomeLanes least(const SomeLanes& a, const SomeLanes& b) {
   return a < b ? a : b;
@@ -169,6 +188,31 @@ template <class SomeLanes>
 SomeLanes greatest(const SomeLanes& a, const SomeLanes& b) {
   return a > b ? a : b;
 }
+template <class SomeLanes>
+SomeLanes swapped_lanes(const SomeLanes& a, int distance) {
+  using Index = std::conditional_t<sizeof(SomeLanes) == sizeof(WideIndex), WideIndex, LaneIndex>;
+  const Index identity{0, 1, 2, 3, 4, 5, 6, 7};
+  return __builtin_shuffle(a, identity ^ static_cast<std::int32_t>(distance));
+}
+
+#if defined(TALUS_LANE_HALVES) && !defined(TALUS_MIXED_PRECISION)
+
+inline Lanes load_lanes(const LocalReal* values) { return load_halves(values); }
+/// An order unpacked, for use on several numbers.
+inline LaneIndex lane_index(const LaneOrder& order) { return LaneIndex(order.lane); }
+inline Lanes gathered(const LocalReal* values, const LaneOrder& order) {
+  const auto at = [&](int i) { return values[order.lane[i]]; };
+  return {LaneHalves::Half{at(0), at(1), at(2), at(3)}, LaneHalves::Half{at(4), at(5), at(6), at(7)}};
+}
+
+#else
+
+inline Lanes load_lanes(const LocalReal* values) {
+  Lanes lanes;
+  __builtin_memcpy(&lanes, values, sizeof(lanes));
+  return lanes;
+}
+inline void store_lanes(const Lanes& a, LocalReal* values) { __builtin_memcpy(values, &a, sizeof(a)); }
 
 /// An order unpacked, for use on several numbers.
 inline LaneIndex lane_index(const LaneOrder& order) {
@@ -196,6 +240,9 @@ inline Lanes gathered(const LocalReal* values, const LaneOrder& order) {
 #endif
 }
 
+#endif
+
+#if !defined(TALUS_LANE_HALVES)
 inline LaneSet lanes_above(const WideLanes& a, const WideLanes& b) {
 #if defined(__AVX512F__)
   return _mm512_cmp_pd_mask(__m512d(a), __m512d(b), _CMP_GT_OQ);
@@ -205,6 +252,7 @@ inline LaneSet lanes_above(const WideLanes& a, const WideLanes& b) {
   return set;
 #endif
 }
+#endif
 #if defined(TALUS_MIXED_PRECISION)
 inline LaneSet lanes_above(const Lanes& a, const Lanes& b) {
 #if defined(__AVX__)
@@ -217,13 +265,6 @@ inline LaneSet lanes_above(const Lanes& a, const Lanes& b) {
 }
 #endif
 
-template <class SomeLanes>
-SomeLanes swapped_lanes(const SomeLanes& a, int distance) {
-  using Index = std::conditional_t<sizeof(SomeLanes) == sizeof(WideIndex), WideIndex, LaneIndex>;
-  const Index identity{0, 1, 2, 3, 4, 5, 6, 7};
-  return __builtin_shuffle(a, identity ^ static_cast<std::int32_t>(distance));
-}
-
 #endif
 
 /// Which of eight sets of vertices hold all of `some`.
@@ -231,6 +272,14 @@ TALUS_HD inline LaneSet sets_holding_all(const std::uint64_t* sets, std::uint64_
 #if defined(__AVX512F__) && !defined(__CUDACC__)
   const __m512i wanted = _mm512_set1_epi64(static_cast<long long>(some));
   return _mm512_cmpeq_epi64_mask(_mm512_and_si512(_mm512_loadu_si512(sets), wanted), wanted);
+#elif defined(TALUS_LANE_HALVES)
+  const __m256i wanted = _mm256_set1_epi64x(static_cast<long long>(some));
+  const auto holding_four = [&](const std::uint64_t* four) {
+    const __m256i set = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(four));
+    const __m256i holding = _mm256_cmpeq_epi64(_mm256_and_si256(set, wanted), wanted);
+    return static_cast<LaneSet>(_mm256_movemask_pd(_mm256_castsi256_pd(holding)));
+  };
+  return holding_four(sets) | holding_four(sets + 4) << 4;
 #else
   LaneSet holding = 0;
   for (int i = 0; i < kLanes; ++i) holding |= static_cast<LaneSet>((sets[i] & some) == some) << i;
@@ -254,7 +303,8 @@ TALUS_HD auto greatest_lane(const SomeLanes& a) {
   const SomeLanes fours = greatest(a, swapped_lanes(a, 4)), twos = greatest(fours, swapped_lanes(fours, 2));
   return twos[0] > twos[1] ? twos[0] : twos[1];
 }
-/// Lane k: the sum of the lanes of `of[k]`.
+#if !defined(TALUS_LANE_HALVES) || defined(TALUS_MIXED_PRECISION)
+/// Lane k: the sum of the lanes of `of[k]`; neighbours first.
 TALUS_HD TALUS_INLINE Lanes sums_of_lanes(const Lanes (&of)[kLanes]) {
 #if defined(__CUDACC__)
   return Lanes::each([&](int i) { return sum_of_lanes(of[i]); });
@@ -270,6 +320,8 @@ TALUS_HD TALUS_INLINE Lanes sums_of_lanes(const Lanes (&of)[kLanes]) {
   return halves(halves(pairs(of[0], of[1]), pairs(of[2], of[3])), halves(pairs(of[4], of[5]), pairs(of[6], of[7])));
 #endif
 }
+
+#endif
 
 /// The first lane in all.
 TALUS_HD inline Lanes first_lane(const Lanes& a) { return every_lane<Lanes>(a[0]); }
