@@ -7,7 +7,7 @@ CUDA_ARCHITECTURES ?= 90
 NVCC := $(or $(shell command -v nvcc 2>/dev/null),$(wildcard /usr/local/cuda/bin/nvcc))
 STAGES := talus talus-digitize talus-generate talus-family talus-decompose talus-catalog talus-simulate talus-post
 
-.PHONY: help demo test build install engine test-engines hard-cases cuda accuracy study gpu-check gpu-test kernel-report instruction-counts record-instruction-counts peers exact-pairs large-mesh large-cloud fuzz decomposition format check-format clean
+.PHONY: help demo test build install engine test-engines portable hard-cases cuda accuracy study gpu-check gpu-test kernel-report instruction-counts record-instruction-counts peers exact-pairs large-mesh large-cloud fuzz decomposition format check-format clean
 
 help:  ## This list
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 16
@@ -37,6 +37,11 @@ test-engines: engine  ## Engine tests with OpenMP, and serial under the address 
 	cmake --preset asan
 	cmake --build --preset asan --parallel $(JOBS)
 	ctest --test-dir build-asan --output-on-failure --parallel $(JOBS) -L 'unit|property|backend'
+
+portable: install  ## The engine for machines of several generations: each loads what it has instructions for (build-dem-portable)
+	cmake --preset dem-portable
+	cmake --build --preset dem-portable --parallel $(JOBS) --target talus-simulate time_scene
+	workflows/portable_check.sh build-dem-portable
 
 HARD_CASES_TABLE := docs/results/hard_cases.md
 hard-cases: install $(BUILD)/CMakeCache.txt  ## Every hard case, about an hour; writes docs/results/hard_cases.md
@@ -153,4 +158,4 @@ check-format:  ## Fail if a source file is not formatted
 	git ls-files '*.cpp' '*.h' | xargs clang-format --dry-run -Werror
 
 clean:  ## Remove the build folders (not the demo's results)
-	rm -rf $(BUILD) build-dem-cpu build-dem-cpu-mixed build-dem-tbb build-dem-cuda build-gpu-check build-kernel-report build-asan
+	rm -rf $(BUILD) build-dem-cpu build-dem-cpu-mixed build-dem-tbb build-dem-portable build-dem-cuda build-gpu-check build-kernel-report build-asan
