@@ -8,11 +8,12 @@ set -euo pipefail
 program=$1/bin/time_scene
 [[ -x $program ]] || { echo "portable_check: $program is not there; make portable builds it" >&2; exit 2; }
 loader=$(ldd "$program" | sed -n 's|^[[:space:]]*\(/[^ ]*ld-linux[^ ]*\).*|\1|p')
+levels=$("$loader" --help)
 export OMP_NUM_THREADS=1 OMP_WAIT_POLICY=passive
 
 height_of_plain=
 for level in x86-64 x86-64-v3 x86-64-v4; do
-  if [[ $level != x86-64 ]] && ! "$loader" --help | grep -q "$level (supported"; then
+  if [[ $level != x86-64 ]] && ! grep -q "$level (supported" <<< "$levels"; then
     echo "$level: not on this machine"
     continue
   fi

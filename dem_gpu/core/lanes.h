@@ -304,7 +304,7 @@ TALUS_HD auto greatest_lane(const SomeLanes& a) {
   return twos[0] > twos[1] ? twos[0] : twos[1];
 }
 #if !defined(TALUS_LANE_HALVES) || defined(TALUS_MIXED_PRECISION)
-/// Lane k: the sum of the lanes of `of[k]`; neighbours first.
+/// Lane k: the sum of the lanes of `of[k]`; on the CPU neighbours first.
 TALUS_HD TALUS_INLINE Lanes sums_of_lanes(const Lanes (&of)[kLanes]) {
 #if defined(__CUDACC__)
   return Lanes::each([&](int i) { return sum_of_lanes(of[i]); });

@@ -32,13 +32,20 @@ TALUS_HD inline Vec3 lane(const Vector3<RealLanes>& v, int i) { return {lane(v.x
 
 #if defined(TALUS_AVX512)
 
+/// The forms without a mask read an undefined register in GCC 12's header, of which it warns itself (GCC bug 105593).
+constexpr __mmask8 kAllLanes = 0xff;
+
 /// Rows are loaded whole and turned in registers: a third of the instructions of single loads.
 inline Vector3<RealLanes> gather(const Vec3* column, const RowLanes& rows) {
   const auto row = [&](int i) { return _mm256_maskz_loadu_pd(0x7, &column->x + rows.vector[i]); };
-  const auto rows_of = [&](int i) { return _mm512_insertf64x4(_mm512_castpd256_pd512(row(i)), row(i + 4), 1); };
+  const auto rows_of = [&](int i) {
+    return _mm512_maskz_insertf64x4(kAllLanes, _mm512_castpd256_pd512(row(i)), row(i + 4), 1);
+  };
   const __m512d row_04 = rows_of(0), row_15 = rows_of(1), row_26 = rows_of(2), row_37 = rows_of(3);
-  const __m512d xz_01 = _mm512_unpacklo_pd(row_04, row_15), y_01 = _mm512_unpackhi_pd(row_04, row_15);
-  const __m512d xz_23 = _mm512_unpacklo_pd(row_26, row_37), y_23 = _mm512_unpackhi_pd(row_26, row_37);
+  const __m512d xz_01 = _mm512_maskz_unpacklo_pd(kAllLanes, row_04, row_15),
+                y_01 = _mm512_maskz_unpackhi_pd(kAllLanes, row_04, row_15);
+  const __m512d xz_23 = _mm512_maskz_unpacklo_pd(kAllLanes, row_26, row_37),
+                y_23 = _mm512_maskz_unpackhi_pd(kAllLanes, row_26, row_37);
   const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
   return {(RealLanes)_mm512_permutex2var_pd(xz_01, low, xz_23), (RealLanes)_mm512_permutex2var_pd(y_01, low, y_23),
           (RealLanes)_mm512_permutex2var_pd(xz_01, high, xz_23)};
@@ -46,7 +53,7 @@ inline Vector3<RealLanes> gather(const Vec3* column, const RowLanes& rows) {
 
 inline void scatter(Vec3* column, const RowLanes& rows, const Vector3<RealLanes>& values) {
   const __m512d x = (__m512d)values.x, y = (__m512d)values.y, z = (__m512d)values.z;
-  const __m512d even = _mm512_unpacklo_pd(x, y), odd = _mm512_unpackhi_pd(x, y);
+  const __m512d even = _mm512_maskz_unpacklo_pd(kAllLanes, x, y), odd = _mm512_maskz_unpackhi_pd(kAllLanes, x, y);
   const auto store = [&](int i, __m128d xy_even, __m128d xy_odd, __m128d z_both) {
     Real* const row_even = &column->x + rows.vector[i];
     Real* const row_odd = &column->x + rows.vector[i + 1];
@@ -56,9 +63,12 @@ inline void scatter(Vec3* column, const RowLanes& rows, const Vector3<RealLanes>
     _mm_storeh_pd(row_odd + 2, z_both);
   };
   store(0, _mm512_castpd512_pd128(even), _mm512_castpd512_pd128(odd), _mm512_castpd512_pd128(z));
-  store(2, _mm512_extractf64x2_pd(even, 1), _mm512_extractf64x2_pd(odd, 1), _mm512_extractf64x2_pd(z, 1));
-  store(4, _mm512_extractf64x2_pd(even, 2), _mm512_extractf64x2_pd(odd, 2), _mm512_extractf64x2_pd(z, 2));
-  store(6, _mm512_extractf64x2_pd(even, 3), _mm512_extractf64x2_pd(odd, 3), _mm512_extractf64x2_pd(z, 3));
+  store(2, _mm512_maskz_extractf64x2_pd(kAllLanes, even, 1), _mm512_maskz_extractf64x2_pd(kAllLanes, odd, 1),
+        _mm512_maskz_extractf64x2_pd(kAllLanes, z, 1));
+  store(4, _mm512_maskz_extractf64x2_pd(kAllLanes, even, 2), _mm512_maskz_extractf64x2_pd(kAllLanes, odd, 2),
+        _mm512_maskz_extractf64x2_pd(kAllLanes, z, 2));
+  store(6, _mm512_maskz_extractf64x2_pd(kAllLanes, even, 3), _mm512_maskz_extractf64x2_pd(kAllLanes, odd, 3),
+        _mm512_maskz_extractf64x2_pd(kAllLanes, z, 3));
 }
 
 #elif defined(TALUS_AVX)

@@ -99,7 +99,7 @@ class CutPieces {
   }
 
  private:
-  static constexpr int kMost = 16;
+  static constexpr int kMost = 24;
   ScratchArray<Polygon, kMost> piece_;
   ScratchArray<std::uint8_t, kMost> face_;
   int count_ = 0;
@@ -125,6 +125,44 @@ TALUS_HD TALUS_INLINE FacesToCut faces_to_cut(const PartView& surface, int first
   return faces;
 }
 
+/// Each polygon of a face has two corners of the diagonals and kLanes - 2 of its own.
+inline constexpr int kMaxFacePieces = (kMaxFaceCorners - 2 + kLanes - 3) / (kLanes - 2);
+
+/// The polygons of some faces, by their numbers.
+struct PolygonsToCut {
+  static constexpr int kMost = kLanes * kMaxFacePieces;
+  std::uint8_t face[kMost];
+  int piece[kMost];  // in PartView::face_pieces
+  int count = 0;
+
+  TALUS_HD PolygonsToCut(const PartView& surface, const FacesToCut& faces) {
+    for (int i = 0; i < faces.count; ++i) {
+      const FaceCorners& corners = surface.faces[faces.face[i]];
+      for (int p = corners.first_piece; p < corners.first_piece + corners.piece_count; ++p) {
+        face[count] = faces.face[i];
+        piece[count++] = p;
+      }
+    }
+  }
+};
+
+/// Keeps of the pieces what lies inside the solid; false if there is no room.
+TALUS_HD TALUS_INLINE bool cut_to_solid(const PartView& solid, const PlaneSides& sides, LocalReal tolerance,
+                                        CutPieces& pieces, Meeting& meeting) {
+  FaceSet cutting;
+  for (int k = 0; k < sides.plane_count && pieces.count() > 0; ++k) {
+    const int f = sides.plane[k];
+    if (!pieces.reaches_beyond(solid.planes[f])) continue;
+    if (!pieces.cut_all(solid.planes[f])) return false;
+    cutting.add(f);
+  }
+  meeting.planes.add(cutting);
+  for (int k = 0; k < sides.plane_count && pieces.count() > 0; ++k)
+    if (const int f = sides.plane[k]; cutting.has(f))
+      meeting.is_thin |= !pieces.reaches_below(solid.planes[f], Meeting::kClearDepth * tolerance);
+  return true;
+}
+
 /// Visits each piece of `surface`'s faces that lies inside `solid`, both convex. `vertices` are the surface's, already
 /// in the solid's frame, with their outcodes against the solid's planes. Only `wanted` faces; each clipped face is an
 /// independent polygon, no topology is built. visitor(polygon in the solid's frame, face index). Returns false if a
@@ -137,31 +175,30 @@ TALUS_HD TALUS_DEVICE_CALL bool visit_surface_inside(const PartView& surface, co
   bool is_whole = true;
   meeting = {};
   for (int first = 0; first < surface.range.face_count; first += kLanes) {
-    const FacesToCut faces = faces_to_cut(surface, first, wanted, sides);
-    CutPieces pieces;
-    for (int i = 0; i < faces.count; ++i) {
-      const int f = faces.face[i];
-      const FaceCorners& face = surface.faces[f];
-      for (int p = face.first_piece; p < face.first_piece + face.piece_count; ++p) {
-        const Polygon polygon{vertices.at(surface.face_pieces[p].corner), surface.face_pieces[p].count};
+    const PolygonsToCut polygons(surface, faces_to_cut(surface, first, wanted, sides));
+    // All of them together; one at a time if they become more pieces than there is room for.
+    int together = polygons.count;
+    for (int begin = 0; begin < polygons.count;) {
+      CutPieces pieces;
+      bool fits = true;
+      for (int i = begin; i < begin + together && fits; ++i) {
+        const int f = polygons.face[i];
+        const FacePiece& piece = surface.face_pieces[polygons.piece[i]];
+        const Polygon polygon{vertices.at(piece.corner), piece.count};
         if (sides.coplanar_count > 0 && !coplanar.keeps(polygon, f >= surface.range.outer_face_count, solid)) continue;
-        is_whole &= pieces.add(polygon, f);
+        fits = pieces.add(polygon, f);
       }
-    }
-    FaceSet cutting;
-    for (int k = 0; k < sides.plane_count && pieces.count() > 0; ++k) {
-      const int f = sides.plane[k];
-      if (!pieces.reaches_beyond(solid.planes[f])) continue;
-      is_whole &= pieces.cut_all(solid.planes[f]);
-      cutting.add(f);
-    }
-    meeting.planes.add(cutting);
-    for (int k = 0; k < sides.plane_count && pieces.count() > 0; ++k)
-      if (const int f = sides.plane[k]; cutting.has(f))
-        meeting.is_thin |= !pieces.reaches_below(solid.planes[f], Meeting::kClearDepth * coplanar.tolerance);
-    for (int i = 0; i < pieces.count(); ++i) {
-      meeting.faces.add(pieces.face(i));
-      visitor(pieces.piece(i), pieces.face(i));
+      fits = fits && cut_to_solid(solid, sides, coplanar.tolerance, pieces, meeting);
+      if (!fits && together > 1) {
+        together = 1;
+        continue;
+      }
+      is_whole &= fits;
+      for (int i = 0; i < pieces.count(); ++i) {
+        meeting.faces.add(pieces.face(i));
+        visitor(pieces.piece(i), pieces.face(i));
+      }
+      begin += together;
     }
   }
   return is_whole;
@@ -177,8 +214,9 @@ TALUS_HD inline FaceSet planes_of(const PartView& part, const FaceSet& faces) {
 
 /// The faces of a solid that bound its overlap with a surface of which all that is inside it has been visited: those
 /// whose planes cut that, and those with a corner inside the surface's own body. The other way round, only planes of
-/// the surface's faces that lie inside bound it, so that no other one need cut the solid's: `sides` loses those. Where
-/// rounding could have lost some, all bound.
+/// the surface's faces that lie inside bound it, so that no other one need cut the solid's: `sides` loses those. (What
+/// lies in the solid and behind the surface's planes that bound the overlap is the overlap.) Where rounding could have
+/// lost some, all bound.
 TALUS_HD TALUS_DEVICE_CALL inline FaceSet faces_that_bound(const PartView& solid, const PartView& surface,
                                                            const Meeting& met, const PartVertices& vertices,
                                                            PlaneSides& sides) {

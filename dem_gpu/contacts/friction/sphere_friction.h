@@ -58,7 +58,7 @@ template <class Number>
 TALUS_HD Number tangential_dashpot(const Number& rate, const Number& effective_mass, const Number& contact_share,
                                    Real time_step) {
   // The dashpot sees the slip half a step late: from the whole of it a step on, it would swing and add energy. It
-  // takes half of it at most, and all of a body's contacts together the whole.
+  // takes half of it at most, and all that a body had in the last step together the whole.
   constexpr Real kShare = 0.5, kTangentialMass = Real(2) / 7;  // of a solid sphere that can turn, over its mass
   if (!(time_step > 0)) return Number{};
   const Number share = smaller(Number{} + kShare, contact_share);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 
+#include "dem_gpu/overlap_probe.h"
 #include "tests/support/pair_integrals.h"
 
 namespace {
@@ -164,6 +165,53 @@ TEST(ClosedPath, NoWorkIsLeft) {
     EXPECT_LT(whole, 1e-5) << path.name;
     EXPECT_LT(parts, 1e-5) << path.name;
     EXPECT_LT(other, 1e-5) << path.name;
+  }
+}
+
+/// Upright prism over a regular polygon of `corners` corners, radius 1.
+catalog::ConvexPart coin(int corners, Real height) {
+  std::vector<Vec3> vertices;
+  for (const Real z : {-height / 2, height / 2})
+    for (int i = 0; i < corners; ++i) {
+      const Real angle = 2 * std::numbers::pi * i / corners;
+      vertices.push_back({std::cos(angle), std::sin(angle), z});
+    }
+  std::vector<std::vector<int>> loops(2);
+  for (int i = 0; i < corners; ++i) {
+    loops[0].push_back(corners + i);
+    loops[1].push_back(corners - 1 - i);
+    const int next = (i + 1) % corners;
+    loops.push_back({i, next, corners + next, corners + i});
+  }
+  return part_of(vertices, loops);
+}
+
+// A face of many corners cut by many planes is many polygons.
+TEST(Coins, LieOnOneAnother) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<Real> uniform(-1, 1);
+  constexpr Real kHeight = 0.4, kOverlap = 0.02;
+  for (const int corners : {8, 20, dem_gpu::kMaxFaceCorners}) {
+    const dem_gpu::Shape shape = dem_gpu::polyhedral_shape("coin", {coin(corners, kHeight)});
+    const Real face = Real(0.5) * corners * std::sin(2 * std::numbers::pi / corners);
+    const dem_gpu::OverlapProbe volumes(shape, shape, dem_gpu::OverlapVolume{1});
+    const dem_gpu::OverlapProbe depths(shape, shape, dem_gpu::DepthPotential{1});
+    for (int i = 0; i < 200; ++i) {
+      const bool is_flat = i % 2 == 0;
+      const Quaternion turn = axis_angle({0, 0, 1}, std::numbers::pi * uniform(random));
+      const Quaternion tilt = axis_angle({1, 0, 0}, is_flat ? 0 : Real(0.02) * uniform(random));
+      const Vec3 shift{is_flat ? 0 : Real(0.1) * uniform(random), 0, kHeight - kOverlap};
+      const dem_gpu::PosePair poses{{}, {shift, tilt * turn, 1}};
+      const Real volume = volumes.overlap(poses).volume;  // throws where pieces do not fit
+      EXPECT_GT(volume, 0.5 * kOverlap * face);
+      // Within both, and around the circles inscribed in both.
+      const Real inscribed = std::numbers::pi * std::pow(std::cos(std::numbers::pi / corners), 2);
+      if (is_flat) {
+        EXPECT_LE(volume, kOverlap * face * (1 + 1e-9 + kSingle.integral));
+        EXPECT_GE(volume, kOverlap * inscribed * (1 - 1e-9 - kSingle.integral));
+      }
+      EXPECT_GT(depths.contact(poses).force.z * -1, 0);
+    }
   }
 }
 
