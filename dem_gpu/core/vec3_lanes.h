@@ -34,6 +34,7 @@ TALUS_HD inline Vec3 lane(const Vector3<RealLanes>& v, int i) { return {lane(v.x
 
 /// The forms without a mask read an undefined register in GCC 12's header, of which it warns itself (GCC bug 105593).
 constexpr __mmask8 kAllLanes = 0xff;
+inline __m128d first_two(__m512d a) { return __builtin_shufflevector(a, a, 0, 1); }
 
 /// Rows are loaded whole and turned in registers: a third of the instructions of single loads.
 inline Vector3<RealLanes> gather(const Vec3* column, const RowLanes& rows) {
@@ -62,7 +63,7 @@ inline void scatter(Vec3* column, const RowLanes& rows, const Vector3<RealLanes>
     _mm_storeu_pd(row_odd, xy_odd);
     _mm_storeh_pd(row_odd + 2, z_both);
   };
-  store(0, _mm512_castpd512_pd128(even), _mm512_castpd512_pd128(odd), _mm512_castpd512_pd128(z));
+  store(0, first_two(even), first_two(odd), first_two(z));
   store(2, _mm512_maskz_extractf64x2_pd(kAllLanes, even, 1), _mm512_maskz_extractf64x2_pd(kAllLanes, odd, 1),
         _mm512_maskz_extractf64x2_pd(kAllLanes, z, 1));
   store(4, _mm512_maskz_extractf64x2_pd(kAllLanes, even, 2), _mm512_maskz_extractf64x2_pd(kAllLanes, odd, 2),
