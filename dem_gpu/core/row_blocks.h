@@ -42,8 +42,8 @@ struct RowBlock {
   template <int k>
   RealLanes component() const {
     constexpr int n = kRealLanes;
-    constexpr PickedLanes of_first([](int i) { return (kWidth * i + k) % (2 * n); });
-    constexpr PickedLanes joined(
+    static constexpr PickedLanes of_first([](int i) { return (kWidth * i + k) % (2 * n); });
+    static constexpr PickedLanes joined(
         [](int i) { return kWidth * i + k < 2 * n ? i : n + (kWidth == 3 ? (3 * i + k) % n : i); });
     const RealLanes low = of_first.of(block[0], block[1]);
     return joined.of(low, kWidth == 3 ? block[2] : of_first.of(block[2], block[kWidth - 1]));
@@ -51,8 +51,8 @@ struct RowBlock {
   template <int b>
   static RealLanes woven(const RealLanes (&components)[kWidth]) {
     constexpr int n = kRealLanes;
-    constexpr PickedLanes of_pair([](int j) { return (b * n + j) / kWidth + ((b * n + j) % kWidth % 2 == 1 ? n : 0); });
-    constexpr PickedLanes joined([](int j) {
+    static constexpr PickedLanes of_pair([](int j) { return (b * n + j) / kWidth + ((b * n + j) % kWidth % 2 == 1 ? n : 0); });
+    static constexpr PickedLanes joined([](int j) {
       const int row = (b * n + j) / kWidth, k = (b * n + j) % kWidth;
       return k < 2 ? j : n + (kWidth == 3 ? row : j);
     });
