@@ -18,6 +18,15 @@
 
 namespace dem_gpu {
 
+namespace {
+
+/// Between the surfaces of two spheres, on the line of their centres.
+Vec3 sphere_contact_point(const Vec3& a, Real radius_a, const Vec3& b, Real depth) {
+  return a + (radius_a - depth / 2) * unit_or(b - a, {0, 0, 1});
+}
+
+}  // namespace
+
 struct Simulation::Engine {
   BodyColumns initial_bodies;
   Model model;
@@ -124,7 +133,7 @@ BulkState Simulation::bulk() const {
     (active[i] ? bulk.active_bodies : bulk.removed_bodies) += 1;
     (active[i] ? bulk.active_mass : bulk.removed_mass) += mass[i];
   }
-  for (const Real depth : to_host(engine_->state.contacts.depth)) bulk.contacts += depth > 0;
+  for (const ContactRow& row : to_host(engine_->state.contacts.row)) bulk.contacts += row.depth > 0;
   bulk.candidate_pairs = static_cast<int>(engine_->state.contacts.key.size());
   return bulk;
 }
@@ -151,16 +160,22 @@ Snapshot Simulation::snapshot() const {
     snapshot.wall_present.push_back(state.walls.records()[w].is_present);
   }
   const auto keys = to_host(state.contacts.key);
-  const auto depth = to_host(state.contacts.depth);
-  const auto force = to_host(state.contacts.force);
+  const auto place = to_host(state.bodies.position);  // with ghosts
+  const auto radius = to_host(engine_->model.bodies.bounding_radius);
+  const auto rows = to_host(state.contacts.row);
   const auto point = to_host(state.contacts.point);
   const GhostOwners ghosts(engine_->model, state);
   const PeriodicLattice lattice = lattice_of(engine_->model.scene);
   for (std::size_t c = 0; c < keys.size(); ++c) {
-    if (!(depth[c] > 0)) continue;
+    if (!(rows[c].depth > 0)) continue;
     const int a = key_body_a(keys[c]), b = key_body_b(keys[c]);
-    snapshot.contacts.push_back({a, is_wall_kind(key_kind(keys[c])) ? -1 - b : ghosts.owner(b),
-                                 point[c] - lattice.shift(lattice.step_to(snapshot.position[a])), force[c], depth[c]});
+    const ContactKind kind = key_kind(keys[c]);
+    const Vec3 at = kind == ContactKind::sphere_sphere
+                        ? sphere_contact_point(place[a], radius[a], place[b], rows[c].depth)
+                        : point[c];
+    snapshot.contacts.push_back({a, is_wall_kind(kind) ? -1 - b : ghosts.owner(b),
+                                 at - lattice.shift(lattice.step_to(snapshot.position[a])), rows[c].force,
+                                 rows[c].depth});
   }
   for (Vec3& position : snapshot.position) position = lattice.inside(position);
   return snapshot;

@@ -35,7 +35,7 @@ struct Model {
   std::vector<char> body_is_sphere;  // n_bodies
   ContactFeatures features;
   Real time_step = 0;                // [s]
-  Real skin = 0;                     // added to the reach of neighbour search [m]
+  Real mean_diameter = 0;            // of the bodies [m]
   std::vector<std::string> classes;  // contact classes of the ledger
   std::vector<int> wall_class;       // n_walls, index into classes; class 0 is particle-particle
 };
@@ -73,6 +73,7 @@ struct State {
   DeviceVector<int> incident_first;     // n_bodies + 1
   DeviceVector<std::int64_t> incident;  // (body << 32) | entry
   WallSet walls;
+  Real skin = 0;         // of the neighbour list: added to the reach of the search [m]
   Real listed_time = 0;  // of the neighbour list [s]
   bool list_is_stale = true;
   Accounts accounts;

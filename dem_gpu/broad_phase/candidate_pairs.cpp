@@ -104,7 +104,7 @@ struct ListPairs {
 DeviceVector<ContactKey> candidate_keys(const Model& model, State& state) {
   const BodyView bodies = bodies_with_ghosts(model, state);
   CellGrid grid;
-  grid.build(bodies, model.skin);
+  grid.build(bodies, state.skin);
   const int entries = grid.view().count;
   DeviceVector<int> first(static_cast<std::size_t>(range_count(entries)) + 1, 0);
   ListPairs list{bodies,      ghost_view(model, state), view(model.shapes.columns), view(model.meshes),

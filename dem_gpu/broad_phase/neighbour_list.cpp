@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "dem_gpu/broad_phase/candidate_pairs.h"
+#include "dem_gpu/broad_phase/skin.h"
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/energy/energy_watch.h"
 #include "dem_gpu/meshes/facet_lists.h"
@@ -147,6 +148,16 @@ void list_incidence(const Model& model, State& state) {
                            " m moves at " + text(v) + tail);
 }
 
+/// Not in a periodic box, whose ghosts reach as far as the skin.
+void fit_skin(const Model& model, State& state) {
+  // A list of spheres costs as much as testing its candidates in 12 steps, measured; polyhedra that are apart wait.
+  constexpr Real kSpheresList = 12, kPolyhedraList = 60;
+  if (model.scene.periodic || !(model.time_step > 0)) return;
+  const auto steps = std::llround((state.time(model) - state.listed_time) / model.time_step);
+  state.skin = next_skin(state.skin, steps, model.mean_diameter,
+                         model.features.has_waiting_pairs ? kPolyhedraList : kSpheresList);
+}
+
 class NeighbourList : public Pass {
  public:
   std::string name() const override { return "neighbour_list"; }
@@ -155,10 +166,11 @@ class NeighbourList : public Pass {
     if (!std::isfinite(moved)) report_lost_body(model, state);
     const Real time = state.time(model);
     // Two bodies may each have come half a skin closer; a wall's own motion takes its share.
-    const bool is_worn = 2 * moved + state.walls.largest_displacement(state.listed_time, time) > model.skin;
+    const bool is_worn = 2 * moved + state.walls.largest_displacement(state.listed_time, time) > state.skin;
     if (!is_worn && !state.list_is_stale) return;
     watch_energy(model, state);
     refuse_pushed_through(model, state);
+    if (is_worn) fit_skin(model, state);
     build_neighbour_list(model, state);
   }
 };

@@ -13,11 +13,15 @@ void reset(DeviceVector<T>& column, int count) {
 
 ContactView view(ContactColumns& c) {
   return {pointer(c.key),
-          pointer(c.force),
-          pointer(c.torque_a),
-          pointer(c.torque_b),
+          pointer(c.row),
+          pointer(c.torques),
+          {pointer(c.row)},
+          {pointer(c.row)},
+          {pointer(c.row)},
+          {pointer(c.row)},
+          {pointer(c.torques)},
+          {pointer(c.torques)},
           pointer(c.point),
-          pointer(c.depth),
           pointer(c.peak_overlap),
           pointer(c.peak_rate),
           pointer(c.is_truncated),
@@ -26,8 +30,6 @@ ContactView view(ContactColumns& c) {
           pointer(c.apart_until),
           pointer(c.facet_begin),
           pointer(c.facet),
-          pointer(c.owed_kick),
-          pointer(c.tangential_displacement),
           pointer(c.turning_displacement),
           pointer(c.spring_normal),
           pointer(c.elastic_work),
@@ -47,19 +49,15 @@ ContactView view(ContactColumns& c) {
 }
 
 void resize_columns(ContactColumns& columns, int count, const ContactFeatures& features) {
-  reset(columns.force, count);
-  reset(columns.torque_a, count);
-  reset(columns.torque_b, count);
+  reset(columns.row, count);
+  reset(columns.torques, count);
   reset(columns.point, count);
-  reset(columns.depth, count);
   reset(columns.peak_overlap, count);
   reset(columns.peak_rate, count);
   reset(columns.is_truncated, count);
   reset(columns.cache_begin, features.has_polyhedra ? count + 1 : 0);
   reset(columns.facet_begin, features.has_meshes ? count + 1 : 0);
   reset(columns.apart_until, features.has_waiting_pairs ? count : 0);
-  reset(columns.owed_kick, features.has_spheres ? count : 0);
-  reset(columns.tangential_displacement, features.has_friction ? count : 0);
   reset(columns.turning_displacement, features.has_friction_couples ? count : 0);
   reset(columns.spring_normal, features.has_friction && features.has_polyhedra ? count : 0);
   const int ledger = features.has_ledger ? count : 0;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "dem_gpu/core/device_vector.h"
+#include "dem_gpu/core/row_field.h"
 #include "dem_gpu/core/vec3.h"
 #include "dem_gpu/narrow_phase/separating_plane.h"
 
@@ -34,17 +35,31 @@ TALUS_HD inline ContactKind key_kind(ContactKey key) { return static_cast<Contac
 TALUS_HD inline bool is_wall_kind(ContactKind kind) { return kind >= ContactKind::polyhedron_wall; }
 TALUS_HD inline bool is_mesh_kind(ContactKind kind) { return kind >= ContactKind::polyhedron_mesh; }
 
+/// What every step reads and writes of a contact: one line of a cache.
+struct ContactRow {
+  Vec3 force;                    // on a, world frame [N]
+  Real depth = 0;                // largest depth, 0 if not touching [m]
+  Vec3 tangential_displacement;  // with friction: of the spring, world frame [m]
+  Real owed_kick = 0;            // with spheres: loss of approach speed of the last step that the next one takes [m/s]
+};
+
+/// Torques of a contact, each where a whole register begins.
+struct ContactTorques {
+  Vec3 torque_a;  // on a about a's centre, world frame [N m]
+  Real none_a = 0;
+  Vec3 torque_b;  // on b about b's centre (a wall's rotation centre), world frame [N m]
+  Real none_b = 0;
+};
+
 /// Candidate pairs and what they carry from step to step, one entry each (n_contacts). Optional columns have length 0
 /// where the scene has no use for them.
 struct ContactColumns {
-  DeviceVector<ContactKey> key;              // ascending
-  DeviceVector<Vec3> force;                  // on a, world frame [N]
-  DeviceVector<Vec3> torque_a;               // on a about a's centre, world frame [N m]
-  DeviceVector<Vec3> torque_b;               // on b about b's centre (a wall's rotation centre), world frame [N m]
-  DeviceVector<Vec3> point;                  // contact point, world frame [m]
-  DeviceVector<Real> depth;                  // largest depth, 0 if not touching [m]
-  DeviceVector<Real> peak_overlap;           // since last read: depth / diameter of the smaller body [-]
-  DeviceVector<Real> peak_rate;              // since last read: stiffness / effective mass [1/s2]
+  DeviceVector<ContactKey> key;  // ascending
+  DeviceVector<ContactRow> row;
+  DeviceVector<ContactTorques> torques;
+  DeviceVector<Vec3> point;                  // contact point, of two spheres with a ledger alone; world frame [m]
+  DeviceVector<Real> peak_overlap;           // since last read: depth / diameter of the smaller body, see PeakLanes [-]
+  DeviceVector<Real> peak_rate;              // since last read: stiffness / effective mass, see PeakLanes [1/s2]
   DeviceVector<char> is_truncated;           // a clipped polygon did not fit
   DeviceVector<int> cache_begin;             // first entry in separating, polyhedron pairs
   DeviceVector<SeparatingPlane> separating;  // one per pair of parts, all candidate pairs end to end
@@ -55,12 +70,6 @@ struct ContactColumns {
   // With meshes.
   DeviceVector<int> facet_begin;  // first entry in facet, n_contacts + 1; empty lists for other kinds
   DeviceVector<int> facet;        // facets that the body may touch, ascending, all lists end to end
-  // With spheres.
-  DeviceVector<Real> owed_kick;  // loss of approach speed of the last step that the next one takes [m/s]
-
-  // With friction.
-  DeviceVector<Vec3> tangential_displacement;  // of the spring, world frame [m]
-
   // With friction that resists turning.
   DeviceVector<Vec3> turning_displacement;  // of the rotational spring: lever x angle, world frame [m]
 
@@ -88,11 +97,15 @@ struct ContactColumns {
 
 struct ContactView {
   const ContactKey* key;
-  Vec3* force;
-  Vec3* torque_a;
-  Vec3* torque_b;
+  ContactRow* row;
+  ContactTorques* torques;
+  RowField<&ContactRow::force> force;
+  RowField<&ContactRow::depth> depth;
+  RowField<&ContactRow::tangential_displacement> tangential_displacement;
+  RowField<&ContactRow::owed_kick> owed_kick;
+  RowField<&ContactTorques::torque_a> torque_a;
+  RowField<&ContactTorques::torque_b> torque_b;
   Vec3* point;
-  Real* depth;
   Real* peak_overlap;
   Real* peak_rate;
   char* is_truncated;
@@ -101,8 +114,6 @@ struct ContactView {
   Real* apart_until;
   const int* facet_begin;
   const int* facet;
-  Real* owed_kick;
-  Vec3* tangential_displacement;
   Vec3* turning_displacement;
   Vec3* spring_normal;
   Real* elastic_work;
@@ -138,13 +149,9 @@ struct ContactFeatures {
 /// Calls visitor(&ContactView::column) for each column that a contact in touch carries from step to step.
 template <class Visitor>
 TALUS_HD void visit_history(const ContactFeatures& features, Visitor&& visitor) {
-  visitor(&ContactView::force);
-  visitor(&ContactView::torque_a);
-  visitor(&ContactView::torque_b);
+  visitor(&ContactView::row);
+  visitor(&ContactView::torques);
   visitor(&ContactView::point);
-  visitor(&ContactView::depth);
-  if (features.has_spheres) visitor(&ContactView::owed_kick);
-  if (features.has_friction) visitor(&ContactView::tangential_displacement);
   if (features.has_friction_couples) visitor(&ContactView::turning_displacement);
   if (features.has_friction && features.has_polyhedra) visitor(&ContactView::spring_normal);
   if (!features.has_ledger) return;

@@ -3,38 +3,49 @@
 #include "dem_gpu/contacts/sphere_geometry.h"
 #include "dem_gpu/contacts/sphere_pairs.h"
 #include "dem_gpu/contacts/welded_surface.h"
+#include "dem_gpu/core/lanes.h"
 
 namespace dem_gpu {
 namespace {
 
-/// Candidate pairs of a range that touch, in their order.
+/// Candidate pairs of a range that touch, in their order; room for one more block of pairs to look at.
 struct TouchingPairs {
-  int contact[kRangeLength], a[kRangeLength], b[kRangeLength];
+  int contact[kRangeLength + kRealLanes], a[kRangeLength + kRealLanes], b[kRangeLength + kRealLanes];
   int count = 0;
 
-  TALUS_HD void append(int c, int body_a, int body_b) {
-    contact[count] = c;
-    a[count] = body_a;
-    b[count] = body_b;
-    ++count;
-  }
-  /// The next pairs from `first` on; the last one again where there are no more, which changes nothing.
+  /// The pairs from `first` on.
   TALUS_HD PairRows rows(int first) const {
     PairRows rows;
     for (int i = 0; i < kRealLanes; ++i) {
-      const int pair = first + i < count ? first + i : count - 1;
-      rows.contact.set(i, contact[pair]);
-      rows.a.set(i, a[pair]);
-      rows.b.set(i, b[pair]);
+      rows.contact.row[i] = contact[first + i];
+      rows.a.row[i] = a[first + i];
+      rows.b.row[i] = b[first + i];
     }
     return rows;
+  }
+  TALUS_HD void append(const PairRows& rows, unsigned which) {
+    for (int i = 0; i < kRealLanes; ++i) {
+      contact[count] = rows.contact[i];
+      a[count] = rows.a[i];
+      b[count] = rows.b[i];
+      count += static_cast<int>(which >> i & 1);
+    }
+  }
+  /// Fills the last block with its last pair, which changes nothing.
+  TALUS_HD void fill_last_block() {
+    for (int i = count; count > 0 && i % kRealLanes != 0; ++i) {
+      contact[i] = contact[count - 1];
+      a[i] = a[count - 1];
+      b[i] = b[count - 1];
+    }
   }
 };
 
 /// Bit i: the spheres of pair i touch.
-TALUS_HD TALUS_ALL_INLINED inline unsigned touching_bits(const BodyView& bodies, const PairRows& rows) {
-  const RealLanes reach = gather(bodies.bounding_radius, rows.a) + gather(bodies.bounding_radius, rows.b);
-  return bits_of(norm_squared(gather(bodies.position, rows.b) - gather(bodies.position, rows.a)) < reach * reach);
+TALUS_HD TALUS_ALL_INLINED inline unsigned touching_bits(const SphereRow* spheres, const PairRows& rows) {
+  const Quad<RealLanes> a = gather_quad(spheres, rows.a, 0), b = gather_quad(spheres, rows.b, 0);
+  const RealLanes reach = a.number + b.number;
+  return bits_of(norm_squared(b.vector - a.vector) < reach * reach);
 }
 
 /// Contacts of spheres with spheres: those of a range that touch are found first, then answered side by side.
@@ -43,20 +54,26 @@ struct ComputeSpherePairs {
   using Damping = OrbitDamping<Law>;
   ContactScene scene;
   Law law;
+  const SphereRow* spheres;
 
   TALUS_HD void operator()(int begin, int end) const {
     TouchingPairs touching;
     for (int c = begin; c < end; c += kRealLanes)
       find_touching(c, end - c < kRealLanes ? end - c : kRealLanes, touching);
+    if (touching.count == 0) return;
+    touching.fill_last_block();
+    PeakLanes peaks;
     for (int first = 0; first < touching.count; first += kRealLanes) {
       const PairRows rows = touching.rows(first);
       SphereTouch touch;
       SphereResponse response;
-      respond_to_touch<Law, Friction>(law, scene, rows, touch, response);
+      respond_to_touch<Law, Friction>(law, scene, spheres, rows, touch, response);
       if constexpr (Record::kEnabled)
         for (int i = 0; i < kRealLanes && first + i < touching.count; ++i) record(rows, i, touch, response);
       write_spheres<Friction>(scene, rows, touch, response);
+      peaks.take(touch, response);
     }
+    peaks.keep(scene.contacts, begin);
   }
 
  private:
@@ -65,16 +82,16 @@ struct ComputeSpherePairs {
     for (int i = 0; i < kRealLanes; ++i) {
       const int c = first + (i < count ? i : count - 1);
       const ContactKey key = scene.contacts.key[c];
-      rows.contact.set(i, c);
-      rows.a.set(i, key_body_a(key));
-      rows.b.set(i, key_body_b(key));
+      rows.contact.row[i] = c;
+      rows.a.row[i] = key_body_a(key);
+      rows.b.row[i] = key_body_b(key);
     }
-    const unsigned touches = touching_bits(scene.bodies, rows);
-    for (int i = 0; i < count; ++i) {
-      if ((touches >> i & 1) != 0)
-        touching.append(rows.contact[i], rows.a[i], rows.b[i]);
-      else if (scene.contacts.depth[rows.contact[i]] != 0)
-        end(rows.contact[i], rows.a[i], rows.b[i]);
+    for (int i = 0; i < kRealLanes; ++i) TALUS_PREFETCH(scene.contacts.row + first + kRealLanes + i);
+    const unsigned here = (1u << count) - 1, touches = touching_bits(spheres, rows) & here;
+    touching.append(rows, touches);
+    for (unsigned apart = here & ~touches; apart != 0; apart &= apart - 1) {
+      const int i = lowest_bit(apart);
+      if (scene.contacts.depth[rows.contact[i]] != 0) end(rows.contact[i], rows.a[i], rows.b[i]);
     }
   }
 
@@ -89,7 +106,7 @@ struct ComputeSpherePairs {
     ElasticContact elastic;
     elastic.normal = lane(touch.normal, i);
     elastic.force = -lane(response.push, i) * elastic.normal;
-    elastic.point = lane(touch.point, i);
+    elastic.point = scene.bodies.position[a] + lane(touch.lever_a, i) * elastic.normal;
     elastic.energy = lane(response.energy, i);
     ContactForces forces;
     const PairProperties& pair = scene.pair(scene.bodies.material[a], scene.bodies.material[b]);
@@ -99,6 +116,7 @@ struct ComputeSpherePairs {
     if constexpr (Friction::kHasCouple) forces.friction.couple = lane(response.couple, i);
     record_contact<Damping, Friction>(scene.contacts, rows.contact[i], elastic, forces, body_side(scene.bodies, a),
                                       body_side(scene.bodies, b), scene.step.length);
+    scene.contacts.point[rows.contact[i]] = elastic.point;
   }
 };
 
@@ -110,12 +128,17 @@ class SpherePairsPass : public Pass {
   std::string name() const override { return "sphere_contacts"; }
   void run(const Model& model, State& state) override {
     const ContactRange range = state.range[static_cast<int>(ContactKind::sphere_sphere)];
+    if (range.first == range.last) return;
+    const ContactScene scene = contact_scene(model, state);
+    spheres_.resize(static_cast<std::size_t>(scene.bodies.count));
+    parallel_for(0, scene.bodies.count, FillSphereRow{scene.bodies, pointer(spheres_)});
     parallel_for_ranges(range.first, range.last,
-                        ComputeSpherePairs<Law, Friction, Record>{contact_scene(model, state), law_});
+                        ComputeSpherePairs<Law, Friction, Record>{scene, law_, pointer(spheres_)});
   }
 
  private:
   Law law_;
+  DeviceVector<SphereRow> spheres_;
 };
 
 template <class Law>

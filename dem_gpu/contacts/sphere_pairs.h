@@ -4,7 +4,7 @@
 #include "dem_gpu/contacts/contact_kernel.h"
 #include "dem_gpu/contacts/friction/rolling_friction.h"
 #include "dem_gpu/contacts/normal_damping.h"
-#include "dem_gpu/core/vec3_lanes.h"
+#include "dem_gpu/contacts/sphere_rows.h"
 
 namespace dem_gpu {
 
@@ -46,26 +46,21 @@ struct SphereTouch {
   RealLanes inverse_depth;     // [1/m]
   RealLanes lever_a, lever_b;  // from the centres to the contact point, along the normal [m]
   RealLanes effective_radius;  // [m]
-  Vector3<RealLanes> point;    // [m]
 
-  TALUS_HD static SphereTouch of(const ContactScene& scene, const PairRows& rows) {
-    const BodyView& bodies = scene.bodies;
-    const Vector3<RealLanes> a = gather(bodies.position, rows.a), offset = gather(bodies.position, rows.b) - a;
-    const RealLanes radius_a = gather(bodies.bounding_radius, rows.a),
-                    radius_b = gather(bodies.bounding_radius, rows.b);
+  TALUS_HD static SphereTouch of(const SphereLanes& a, const SphereLanes& b, const RealLanes& depth_before) {
+    const Vector3<RealLanes> offset = b.position() - a.position();
     SphereTouch touch;
     const RealLanes distance = norm(offset);
     const auto is_apart = distance > Real(0);  // spheres on one spot part along z
     touch.curvature = select(is_apart, Real(1) / distance, RealLanes{});
     touch.normal = touch.curvature * offset;
     touch.normal.z = select(is_apart, touch.normal.z, RealLanes{} + Real(1));
-    touch.depth = radius_a - (distance - radius_b);
-    touch.depth_before = gather(scene.contacts.depth, rows.contact);
+    touch.depth = a.radius() - (distance - b.radius());
+    touch.depth_before = depth_before;
     touch.inverse_depth = Real(1) / touch.depth;
-    touch.lever_a = radius_a - Real(0.5) * touch.depth;
-    touch.lever_b = radius_b - Real(0.5) * touch.depth;
-    touch.effective_radius = radius_a * radius_b / (radius_a + radius_b);
-    touch.point = a + touch.lever_a * touch.normal;
+    touch.lever_a = a.radius() - Real(0.5) * touch.depth;
+    touch.lever_b = b.radius() - Real(0.5) * touch.depth;
+    touch.effective_radius = a.radius() * b.radius() / (a.radius() + b.radius());
     return touch;
   }
 };
@@ -76,13 +71,12 @@ struct SphereVelocities {
   Vector3<RealLanes> relative, slip, spin;
   RealLanes twist_rate;
 
-  TALUS_HD static SphereVelocities of(const Vec3* velocity, const Vec3* spin, const PairRows& rows,
-                                      const SphereTouch& touch) {
-    const Vector3<RealLanes> spin_a = gather(spin, rows.a), spin_b = gather(spin, rows.b);
+  TALUS_HD static SphereVelocities of(const Vector3<RealLanes>& relative, const Vector3<RealLanes>& spin_a,
+                                      const Vector3<RealLanes>& spin_b, const SphereTouch& touch) {
     SphereVelocities found;
-    found.relative = gather(velocity, rows.a) - gather(velocity, rows.b);
-    found.slip = tangential_part(found.relative, touch.normal) +
-                 cross(touch.lever_a * spin_a + touch.lever_b * spin_b, touch.normal);
+    found.relative = relative;
+    found.slip =
+        tangential_part(relative, touch.normal) + cross(touch.lever_a * spin_a + touch.lever_b * spin_b, touch.normal);
     found.spin = spin_a - spin_b;
     found.twist_rate = Real(0.5) * dot(spin_a + spin_b, touch.normal);
     return found;
@@ -99,11 +93,21 @@ struct SphereResponse {
   Vector3<RealLanes> friction, couple;  // on a [N], [N m]
   RealLanes tangential_energy;          // in the springs [J]
   Vector3<RealLanes> sliding, rolling;  // lengths of the springs [m]
+  RealLanes diameter;                   // of the smaller sphere [m]
+};
+
+/// What the last step left of a contact.
+struct LastContact {
+  Quad<RealLanes> force_depth, spring_owed;
+
+  TALUS_HD static LastContact of(const ContactScene& scene, const PairRows& rows) {
+    return {gather_quad(scene.contacts.row, rows.contact, 0), gather_quad(scene.contacts.row, rows.contact, 1)};
+  }
 };
 
 /// The push along the normal: by series for all, by sub-steps for those lanes that need them.
 template <class Law>
-TALUS_HD void find_push(const ContactScene& scene, const PairRows& rows, const SphereTouch& touch,
+TALUS_HD void find_push(const ContactScene& scene, const LastContact& last, const SphereTouch& touch,
                         const PairLanes& pair, const SphereVelocities& mean, const SphereVelocities& predicted,
                         RealLanes force, SphereResponse& response) {
   const Real step = scene.step.length;
@@ -113,8 +117,8 @@ TALUS_HD void find_push(const ContactScene& scene, const PairRows& rows, const S
   const RealLanes damping = Real(2) * pair.damping * response.rate;
   const auto is_verlet = is_left_to_verlet<Law>(damping, response.adhesion, response.rate, step);
   const auto is_first = (touch.depth_before == Real(0)) & (touch.depth <= kTouchMargin * step * mean_speed);
-  RealLanes owed = gather(scene.contacts.owed_kick, rows.contact);
-  const RealLanes contact_before = -dot(gather(scene.contacts.force, rows.contact), touch.normal) * inverse_mass;
+  RealLanes owed = last.spring_owed.number;
+  const RealLanes contact_before = -dot(last.force_depth.vector, touch.normal) * inverse_mass;
   if (scene.step.is_first) owed = select(is_first | is_verlet, owed, step / 2 * contact_before);
   const RealLanes by_others =
       select(is_first, RealLanes{}, (2 / step) * (dot(predicted.relative, touch.normal) - mean_speed) + contact_before);
@@ -147,9 +151,9 @@ TALUS_HD void find_push(const ContactScene& scene, const PairRows& rows, const S
 }
 
 template <class Law, class Friction>
-TALUS_HD void find_friction(const ContactScene& scene, const PairRows& rows, const SphereTouch& touch,
-                            const PairLanes& pair, const SphereVelocities& mean, const SphereVelocities& predicted,
-                            SphereResponse& response) {
+TALUS_HD void find_friction(const ContactScene& scene, const PairRows& rows, const LastContact& last,
+                            const RealLanes& contact_share, const SphereTouch& touch, const PairLanes& pair,
+                            const SphereVelocities& mean, const SphereVelocities& predicted, SphereResponse& response) {
   const Real step = scene.step.length;
   // What presses the surfaces together. The mean force over a step may pull, to make up for the step before.
   const RealLanes load = larger(RealLanes{}, response.push + response.adhesion);
@@ -157,9 +161,7 @@ TALUS_HD void find_friction(const ContactScene& scene, const PairRows& rows, con
   SphereSlip<RealLanes> slip{touch.normal,           touch.depth_before * touch.inverse_depth,
                              step * mean.twist_rate, mean.slip,
                              predicted.slip,         pair.friction_coefficient * load};
-  const RealLanes contact_share =
-      smaller(gather(scene.bodies.contact_share, rows.a), gather(scene.bodies.contact_share, rows.b));
-  response.sliding = gather(scene.contacts.tangential_displacement, rows.contact);
+  response.sliding = last.spring_owed.vector;
   const SphereSpringForce<RealLanes> sliding =
       spring_force<Law>(response.sliding, slip, stiffness,
                         tangential_dashpot(Real(2) * pair.tangential_damping * response.rate, response.effective_mass,
@@ -184,15 +186,18 @@ TALUS_HD void find_friction(const ContactScene& scene, const PairRows& rows, con
 /// Not part of a kernel, nor is write_spheres, so that motion is the same with a work record and without.
 template <class Law, class Friction>
 TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void respond_to_touch(const Law& law, const ContactScene& scene,
-                                                                const PairRows& rows, SphereTouch& touch,
-                                                                SphereResponse& response) {
-  const BodyView& bodies = scene.bodies;
-  touch = SphereTouch::of(scene, rows);
+                                                                const SphereRow* spheres, const PairRows& rows,
+                                                                SphereTouch& touch, SphereResponse& response) {
+  const SphereLanes a = SphereLanes::of(spheres, rows.a), b = SphereLanes::of(spheres, rows.b);
+  const LastContact last = LastContact::of(scene, rows);
+  touch = SphereTouch::of(a, b, last.force_depth.number);
   const PairLanes pair = pair_lanes(scene, rows);
-  const SphereVelocities mean = SphereVelocities::of(bodies.mean_velocity, bodies.mean_angular_velocity, rows, touch);
-  const SphereVelocities predicted =
-      SphereVelocities::of(bodies.predicted_velocity, bodies.predicted_angular_velocity, rows, touch);
-  response.inverse_mass = gather(bodies.inverse_mass, rows.a) + gather(bodies.inverse_mass, rows.b);
+  const SphereVelocities mean =
+      SphereVelocities::of(a.mean_velocity() - b.mean_velocity(), a.mean_spin(), b.mean_spin(), touch);
+  const SphereVelocities predicted = SphereVelocities::of(a.predicted_velocity() - b.predicted_velocity(),
+                                                          a.predicted_spin.vector, b.predicted_spin.vector, touch);
+  response.diameter = smaller(a.diameter(), b.diameter());
+  response.inverse_mass = a.inverse_mass() + b.inverse_mass();
   response.effective_mass = Real(1) / response.inverse_mass;
   response.stiffness = law.tangent_stiffness(touch.depth, touch.effective_radius, pair.effective_modulus);
   response.rate = square_root(response.stiffness * response.inverse_mass);
@@ -205,50 +210,54 @@ TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void respond_to_touch(const Law& law, 
   }
   response.push = force - response.adhesion;
   if (scene.step.length > 0)
-    find_push<Law>(scene, rows, touch, pair, mean, predicted, force, response);
+    find_push<Law>(scene, last, touch, pair, mean, predicted, force, response);
   else  // forces of a start, before any step: the elastic one alone
-    response.owed = gather(scene.contacts.owed_kick, rows.contact);
-  if constexpr (Friction::kEnabled) find_friction<Law, Friction>(scene, rows, touch, pair, mean, predicted, response);
+    response.owed = last.spring_owed.number;
+  if constexpr (Friction::kEnabled)
+    find_friction<Law, Friction>(scene, rows, last, smaller(a.contact_share(), b.contact_share()), touch, pair, mean,
+                                 predicted, response);
 }
 
-/// Few contacts of a bed are at their worst: the others write nothing.
-TALUS_HD inline void write_peaks(const ContactScene& scene, const PairRows& rows, const SphereTouch& touch,
-                                 const SphereResponse& response) {
-  const ContactView& contacts = scene.contacts;
-  const RowLanes& c = rows.contact;
-  const RealLanes overlap = gather(contacts.peak_overlap, c), rate = gather(contacts.peak_rate, c);
-  const RealLanes diameter = smaller(gather(scene.bodies.diameter, rows.a), gather(scene.bodies.diameter, rows.b));
-  if (bits_of(touch.depth > overlap * diameter) != 0)
-    scatter(contacts.peak_overlap, c, larger(overlap, touch.depth / diameter));
-  const RealLanes rate_now = response.stiffness * response.inverse_mass;
-  if (bits_of(rate_now > rate) != 0) scatter(contacts.peak_rate, c, larger(rate, rate_now));
-}
+/// The worst of a range of contacts, kept by its first: what is read is the worst of all.
+struct PeakLanes {
+  RealLanes overlap{}, rate{};
+
+  TALUS_HD void take(const SphereTouch& touch, const SphereResponse& response) {
+    if (bits_of(touch.depth > overlap * response.diameter) != 0)
+      overlap = larger(overlap, touch.depth / response.diameter);
+    rate = larger(rate, response.stiffness * response.inverse_mass);
+  }
+  TALUS_HD void keep(const ContactView& contacts, int first) const {
+    Real& peak_overlap = contacts.peak_overlap[first];
+    Real& peak_rate = contacts.peak_rate[first];
+    for (int i = 0; i < kRealLanes; ++i) {
+      peak_overlap = larger(peak_overlap, lane(overlap, i));
+      peak_rate = larger(peak_rate, lane(rate, i));
+    }
+  }
+};
 
 template <class Friction>
 TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void write_spheres(const ContactScene& scene, const PairRows& rows,
                                                              const SphereTouch& touch, const SphereResponse& response) {
   const ContactView& contacts = scene.contacts;
   const RowLanes& c = rows.contact;
-  Vector3<RealLanes> force = -response.push * touch.normal, torque_a, torque_b;
+  Vector3<RealLanes> force = -response.push * touch.normal, sliding;
   if constexpr (Friction::kEnabled) {
     force += response.friction;
+    sliding = response.sliding;
     const Vector3<RealLanes> turning = cross(touch.normal, response.friction);
-    torque_a = touch.lever_a * turning;
-    torque_b = touch.lever_b * turning;
-    scatter(contacts.tangential_displacement, c, response.sliding);
+    Vector3<RealLanes> torque_a = touch.lever_a * turning, torque_b = touch.lever_b * turning;
+    if constexpr (Friction::kHasCouple) {
+      torque_a += response.couple;
+      torque_b -= response.couple;
+      scatter(contacts.turning_displacement, c, response.rolling);
+    }
+    scatter_quad(contacts.torques, c, 0, {torque_a, RealLanes{}});
+    scatter_quad(contacts.torques, c, 1, {torque_b, RealLanes{}});
   }
-  if constexpr (Friction::kHasCouple) {
-    torque_a += response.couple;
-    torque_b -= response.couple;
-    scatter(contacts.turning_displacement, c, response.rolling);
-  }
-  scatter(contacts.force, c, force);
-  scatter(contacts.torque_a, c, torque_a);
-  scatter(contacts.torque_b, c, torque_b);
-  scatter(contacts.point, c, touch.point);
-  scatter(contacts.depth, c, touch.depth);
-  scatter(contacts.owed_kick, c, response.owed);
-  write_peaks(scene, rows, touch, response);
+  scatter_quad(contacts.row, c, 0, {force, touch.depth});
+  scatter_quad(contacts.row, c, 1, {sliding, response.owed});
 }
 
 }  // namespace dem_gpu

@@ -51,7 +51,8 @@ struct RowBlock {
   template <int b>
   static RealLanes woven(const RealLanes (&components)[kWidth]) {
     constexpr int n = kRealLanes;
-    static constexpr PickedLanes of_pair([](int j) { return (b * n + j) / kWidth + ((b * n + j) % kWidth % 2 == 1 ? n : 0); });
+    static constexpr PickedLanes of_pair(
+        [](int j) { return (b * n + j) / kWidth + ((b * n + j) % kWidth % 2 == 1 ? n : 0); });
     static constexpr PickedLanes joined([](int j) {
       const int row = (b * n + j) / kWidth, k = (b * n + j) % kWidth;
       return k < 2 ? j : n + (kWidth == 3 ? row : j);

@@ -44,7 +44,7 @@ std::string partner_name(const Model& model, const GhostOwners& ghosts, ContactK
 /// "; its deepest contact is with body 7" or wall.
 std::string deepest_partner(const Model& model, const State& state, int body) {
   const auto keys = to_host(state.contacts.key);
-  const auto depth = to_host(state.contacts.depth);
+  const auto rows = to_host(state.contacts.row);
   const GhostOwners ghosts(model, state);
   std::string partner;
   Real deepest = 0;
@@ -52,8 +52,8 @@ std::string deepest_partner(const Model& model, const State& state, int body) {
     const int a = key_body_a(keys[c]);
     const bool is_wall = is_wall_kind(key_kind(keys[c]));
     const int b = is_wall ? -1 : ghosts.owner(key_body_b(keys[c]));
-    if ((a != body && b != body) || depth[c] <= deepest) continue;
-    deepest = depth[c];
+    if ((a != body && b != body) || rows[c].depth <= deepest) continue;
+    deepest = rows[c].depth;
     partner = is_wall || a == body ? partner_name(model, ghosts, keys[c]) : "body " + std::to_string(a);
   }
   return partner.empty() ? "" : "; its deepest contact is with " + partner;

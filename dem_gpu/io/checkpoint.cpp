@@ -16,7 +16,7 @@ namespace dem_gpu {
 namespace {
 
 constexpr const char* kKind = "talus-checkpoint";
-constexpr int kVersion = 7;
+constexpr int kVersion = 8;
 constexpr std::int64_t kLocalRealBytes = sizeof(LocalReal);
 
 /// A whole checkpoint that does not fit the simulation: no reason to look at an earlier one.
@@ -41,11 +41,9 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("bodies/listed_displacement", b.listed_displacement);
   auto& c = state.contacts;
   visit("contacts/key", c.key);
-  visit("contacts/force", c.force);
-  visit("contacts/torque_a", c.torque_a);
-  visit("contacts/torque_b", c.torque_b);
+  visit("contacts/row", c.row);
+  visit("contacts/torques", c.torques);
   visit("contacts/point", c.point);
-  visit("contacts/depth", c.depth);
   visit("contacts/peak_overlap", c.peak_overlap);
   visit("contacts/peak_rate", c.peak_rate);
   visit("contacts/is_truncated", c.is_truncated);
@@ -53,8 +51,6 @@ void visit_state(StateType& state, Visitor&& visit) {
   visit("contacts/separating", c.separating);
   visit("contacts/facet_begin", c.facet_begin);
   visit("contacts/facet", c.facet);
-  visit("contacts/owed_kick", c.owed_kick);
-  visit("contacts/tangential_displacement", c.tangential_displacement);
   visit("contacts/turning_displacement", c.turning_displacement);
   visit("contacts/spring_normal", c.spring_normal);
   visit("contacts/elastic_work", c.elastic_work);
@@ -87,12 +83,14 @@ void visit_state(StateType& state, Visitor&& visit) {
 /// How a column's elements stand in the file: as rows of numbers.
 template <class T>
 struct Stored {
+  static constexpr bool kIsRow = std::is_same_v<T, Vec3> || std::is_same_v<T, Quaternion> ||
+                                 std::is_same_v<T, ContactRow> || std::is_same_v<T, ContactTorques>;
   using Number = std::conditional_t<
-      std::is_same_v<T, Vec3> || std::is_same_v<T, Quaternion>, Real,
+      kIsRow, Real,
       std::conditional_t<sizeof(T) == 1, std::uint8_t,
                          std::conditional_t<sizeof(T) == 8 && std::is_integral_v<T>, std::int64_t,
                                             std::conditional_t<std::is_integral_v<T>, std::int32_t, T>>>>;
-  static constexpr std::size_t kColumns = std::is_same_v<T, Vec3> ? 3 : std::is_same_v<T, Quaternion> ? 4 : 1;
+  static constexpr std::size_t kColumns = kIsRow ? sizeof(T) / sizeof(Real) : 1;
 };
 
 template <class T>
@@ -218,6 +216,7 @@ void read_one(const std::filesystem::path& path, const Model& model, State& stat
   for (int kind = 0; kind < kContactKinds; ++kind)
     state.range[kind] = {ranges[2 * static_cast<std::size_t>(kind)], ranges[2 * static_cast<std::size_t>(kind) + 1]};
   state.step = file.integer_attribute("step");
+  state.skin = file.double_attribute("skin");
   state.listed_time = file.double_attribute("listed_time");
   state.list_is_stale = file.integer_attribute("list_is_stale") != 0;
   Accounts& accounts = state.accounts;
@@ -246,6 +245,7 @@ void write_checkpoint_file(const std::filesystem::path& run_folder, const Model&
     file.write_attribute("local_real_bytes", kLocalRealBytes);
     file.write_attribute("scene", fingerprint(model));
     file.write_attribute("step", state.step);
+    file.write_attribute("skin", static_cast<double>(state.skin));
     file.write_attribute("listed_time", static_cast<double>(state.listed_time));
     file.write_attribute("list_is_stale", static_cast<std::int64_t>(state.list_is_stale));
     const Accounts& accounts = state.accounts;

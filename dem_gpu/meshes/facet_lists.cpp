@@ -41,7 +41,7 @@ void list_facets(const Model& model, State& state, ContactColumns& contacts) {
                   view(model.bodies, state.bodies),
                   state.walls.device(),
                   view(model.meshes),
-                  model.skin,
+                  state.skin,
                   pointer(contacts.facet_begin),
                   nullptr};
   parallel_for(0, count, list);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dem_gpu/bodies/model_state.h"
 #include "dem_gpu/core/parallel.h"
+#include "dem_gpu/core/row_quads.h"
 #include "dem_gpu/motion/motion_passes.h"
 
 namespace dem_gpu {
@@ -12,22 +13,32 @@ struct GatherForces {
   ContactView contacts;
   const int* incident_first;
   const std::int64_t* incident;
+  int incident_count;
   Vec3 gravity;    // [m/s2]
   Real time_step;  // [s]
 
+  static constexpr int kAhead = 16;  // contacts of bodies to come
+
+  TALUS_HD void prefetch([[maybe_unused]] int k) const {
+    [[maybe_unused]] const std::int64_t contact = (incident[k < incident_count ? k : 0] & 0xffffffff) >> 1;
+    TALUS_PREFETCH(contacts.row + contact);
+    TALUS_PREFETCH(contacts.torques + contact);
+  }
+
   TALUS_HD void operator()(int i) const {
     if (!bodies.is_moving(i)) return;
-    Vec3 force = bodies.mass[i] * gravity, torque;
+    QuadSum force_sum(bodies.mass[i] * gravity), torque_sum(Vec3{});
     int touching = 0;
     for (int k = incident_first[i]; k < incident_first[i + 1]; ++k) {
+      prefetch(k + kAhead);
       const int entry = static_cast<int>(incident[k] & 0xffffffff);
-      const int contact = entry >> 1;
-      const bool is_b = (entry & 1) != 0;
-      const Vec3 push = contacts.force[contact];
-      touching += push.x != 0 || push.y != 0 || push.z != 0 ? 1 : 0;
-      force += (is_b ? Real(-1) : Real(1)) * push;
-      torque += (is_b ? contacts.torque_b : contacts.torque_a)[contact];
+      const int contact = entry >> 1, side = entry & 1;
+      const ContactRow& row = contacts.row[contact];
+      touching += row.depth != 0 ? 1 : 0;
+      force_sum.add(reinterpret_cast<const Real*>(&row), Real(1 - 2 * side));
+      torque_sum.add(reinterpret_cast<const Real*>(contacts.torques + contact) + 4 * side, Real(1));
     }
+    const Vec3 force = force_sum.vector(), torque = torque_sum.vector();
     bodies.contact_share[i] = Real(1) / (touching > 1 ? touching : 1);
     bodies.force[i] = force;
     bodies.torque[i] = torque;
@@ -45,7 +56,7 @@ class GatherForcesPass : public Pass {
     const BodyView bodies = view(model.bodies, state.bodies);
     parallel_for(0, bodies.count,
                  GatherForces{bodies, view(state.contacts), pointer(state.incident_first), pointer(state.incident),
-                              model.scene.gravity, model.time_step});
+                              static_cast<int>(state.incident.size()), model.scene.gravity, model.time_step});
   }
 };
 

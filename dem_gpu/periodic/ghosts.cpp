@@ -183,7 +183,7 @@ GhostChange renew_ghosts(const Model& model, State& state) {
   parallel_for(0, bodies.count, WrapBody{bodies, lattice, pointer(state.ghosts.wraps), pointer(change.step)});
 
   DeviceVector<int> first(static_cast<std::size_t>(bodies.count) + 1, 0);
-  const Real reach = max_of(model.bodies.bounding_radius, Real(0)) + model.skin;
+  const Real reach = max_of(model.bodies.bounding_radius, Real(0)) + state.skin;
   ListGhosts list{bodies, lattice, reach, pointer(first), nullptr};
   parallel_for(0, bodies.count, list);
   DeviceVector<std::int64_t> ids(static_cast<std::size_t>(exclusive_scan(first)));

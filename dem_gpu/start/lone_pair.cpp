@@ -90,10 +90,9 @@ Vec3 LonePair::force_at(const Vec3& shift) {
   find_forces(passes_, model_, state);
   Vec3 force;
   const auto keys = to_host(state.contacts.key);
-  const auto depth = to_host(state.contacts.depth);
-  const auto forces = to_host(state.contacts.force);
+  const auto rows = to_host(state.contacts.row);
   for (std::size_t c = 0; c < keys.size(); ++c)
-    if (depth[c] > 0) force += (key_body_a(keys[c]) == 0 ? Real(1) : Real(-1)) * forces[c];
+    if (rows[c].depth > 0) force += (key_body_a(keys[c]) == 0 ? Real(1) : Real(-1)) * rows[c].force;
   return force;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "dem_gpu/broad_phase/skin.h"
 #include "dem_gpu/contacts/contact_passes.h"
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/energy/energy.h"
@@ -15,9 +16,6 @@
 
 namespace dem_gpu {
 namespace {
-
-/// Skin of the neighbour list in mean body diameters.
-constexpr Real kSkinShare = 0.1;
 
 std::vector<Shape> shapes_with_objects(const Scene& scene) {
   std::vector<Shape> shapes = scene.shapes;
@@ -182,14 +180,25 @@ Model make_model(const Scene& scene, PreparedShapes shapes, BodyColumns& at_star
   model.time_step = time_step(scene);
   Real mean_diameter = 0;
   for (const Real diameter : to_host(model.bodies.diameter)) mean_diameter += diameter;
-  model.skin = kSkinShare * mean_diameter / static_cast<Real>(scene.bodies.size());
+  model.mean_diameter = mean_diameter / static_cast<Real>(scene.bodies.size());
   set_classes(scene, model);
   return model;
 }
 
 State start_state(const Model& model, BodyColumns at_start) {
   const Scene& scene = model.scene;
-  State state{0, std::move(at_start), {}, {}, {}, {}, WallSet(scene, model.shapes.first_object), 0, true, {}, {}};
+  State state{0,
+              std::move(at_start),
+              {},
+              {},
+              {},
+              {},
+              WallSet(scene, model.shapes.first_object),
+              kFirstSkin * model.mean_diameter,
+              0,
+              true,
+              {},
+              {}};
   if (model.features.has_spheres) state.walls.weld(welded_walls(scene));
   Accounts& accounts = state.accounts;
   accounts.loss_normal.assign(model.classes.size(), 0);

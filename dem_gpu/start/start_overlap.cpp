@@ -89,17 +89,18 @@ Real stored_energy(LonePair pair, const Vec3& force, Real depth) {
 void refuse_deep_start(const Model& model, const State& state) {
   const Scene& scene = model.scene;
   const auto keys = to_host(state.contacts.key);
-  const auto depth = to_host(state.contacts.depth);
+  const auto rows = to_host(state.contacts.row);
   const auto width = to_host(model.bodies.least_width);
   const GhostOwners ghosts(model, state);
   const PeriodicLattice lattice = lattice_of(scene);
   for (std::size_t c = 0; c < keys.size(); ++c) {
     const StartPair pair = pair_of(keys[c], ghosts, lattice);
     const Real thinner = pair.has_wall() ? width[pair.a] : std::min(width[pair.a], width[pair.b]);
-    if (depth[c] > scene.run.largest_start_overlap * thinner) {
+    if (rows[c].depth > scene.run.largest_start_overlap * thinner) {
       char text[96];
       std::snprintf(text, sizeof text, "%.4g m, %.3g %% of the thinner body's least width (at most %.3g %%)",
-                    double(depth[c]), double(100 * depth[c] / thinner), double(100 * scene.run.largest_start_overlap));
+                    double(rows[c].depth), double(100 * rows[c].depth / thinner),
+                    double(100 * scene.run.largest_start_overlap));
       refuse(scene, pair, text);
     }
     if (pair.kind == ContactKind::polyhedron_polyhedron &&
@@ -142,8 +143,7 @@ void refuse_fast_walls(const Model& model, const State& state) {
 
 Real book_start_energy(const Model& model, State& state) {
   const auto keys = to_host(state.contacts.key);
-  const auto depth = to_host(state.contacts.depth);
-  const auto force = to_host(state.contacts.force);
+  const auto rows = to_host(state.contacts.row);
   const auto width = to_host(model.bodies.least_width);
   auto stored = to_host(state.contacts.elastic_work);
   const GhostOwners ghosts(model, state);
@@ -151,8 +151,8 @@ Real book_start_energy(const Model& model, State& state) {
   const HostShapeColumns shapes = to_host(model.shapes.columns);
   Real sum = 0;
   for (std::size_t c = 0; c < keys.size(); ++c) {
-    if (!(depth[c] > kLeastDepth * width[key_body_a(keys[c])])) continue;
-    stored[c] = stored_energy(LonePair(model, shapes, pair_of(keys[c], ghosts, lattice)), force[c], depth[c]);
+    if (!(rows[c].depth > kLeastDepth * width[key_body_a(keys[c])])) continue;
+    stored[c] = stored_energy(LonePair(model, shapes, pair_of(keys[c], ghosts, lattice)), rows[c].force, rows[c].depth);
     sum += stored[c];
   }
   assign(state.contacts.elastic_work, stored);

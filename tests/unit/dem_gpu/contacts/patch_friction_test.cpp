@@ -20,7 +20,8 @@ using dem_gpu::PatchSprings;
 
 /// One contact of a 20 mm body at 1 kN load on its own columns; stiffness 4e5 N/m.
 struct OneContact {
-  Vec3 slip, spin, normal;
+  dem_gpu::ContactRow row;
+  Vec3 spin, normal;
   dem_gpu::ElasticContact elastic;
   dem_gpu::PairProperties pair;
   ContactPatch patch;
@@ -45,7 +46,7 @@ struct OneContact {
 
   void step(const Vec3& velocity, const Vec3& angular_velocity, Real time_step) {
     dem_gpu::ContactView view{};
-    view.tangential_displacement = &slip;
+    view.tangential_displacement = {&row};
     view.turning_displacement = &spin;
     view.spring_normal = &normal;
     dem_gpu::FrictionContact contact{elastic, pair, 0, 0.02, 0.02, time_step, 1};
