@@ -15,21 +15,13 @@ struct TouchingPairs {
 
   /// The pairs from `first` on.
   TALUS_HD PairRows rows(int first) const {
-    PairRows rows;
-    for (int i = 0; i < kRealLanes; ++i) {
-      rows.contact.row[i] = contact[first + i];
-      rows.a.row[i] = a[first + i];
-      rows.b.row[i] = b[first + i];
-    }
-    return rows;
+    return {RowLanes::load(contact + first), RowLanes::load(a + first), RowLanes::load(b + first)};
   }
   TALUS_HD void append(const PairRows& rows, unsigned which) {
-    for (int i = 0; i < kRealLanes; ++i) {
-      contact[count] = rows.contact[i];
-      a[count] = rows.a[i];
-      b[count] = rows.b[i];
-      count += static_cast<int>(which >> i & 1);
-    }
+    append_lanes(rows.contact, which, contact + count);
+    append_lanes(rows.a, which, a + count);
+    append_lanes(rows.b, which, b + count);
+    count += count_bits(which);
   }
   /// Fills the last block with its last pair, which changes nothing.
   TALUS_HD void fill_last_block() {
@@ -77,7 +69,8 @@ struct ComputeSpherePairs {
   }
 
  private:
-  TALUS_HD void find_touching(int first, int count, TouchingPairs& touching) const {
+  /// Of `count` candidates from `first` on; the last one again where there are no more.
+  TALUS_HD PairRows candidates(int first, int count) const {
     PairRows rows;
     for (int i = 0; i < kRealLanes; ++i) {
       const int c = first + (i < count ? i : count - 1);
@@ -86,6 +79,10 @@ struct ComputeSpherePairs {
       rows.a.row[i] = key_body_a(key);
       rows.b.row[i] = key_body_b(key);
     }
+    return rows;
+  }
+  TALUS_HD void find_touching(int first, int count, TouchingPairs& touching) const {
+    const PairRows rows = candidates(first, count);
     for (int i = 0; i < kRealLanes; ++i) TALUS_PREFETCH(scene.contacts.row + first + kRealLanes + i);
     const unsigned here = (1u << count) - 1, touches = touching_bits(spheres, rows) & here;
     touching.append(rows, touches);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dem_gpu/core/intrinsics.h"
 #include "dem_gpu/core/vec3_lanes.h"
 
 // Rows of a table whose members are quads, a vector and a number each: several rows are read as wide as registers are
