@@ -24,13 +24,21 @@ struct FlushRule {
   }
 };
 
+/// Of opposed planes, one of each part: what lies between the two. Else what lies inside a's, seen from b's. In a's
+/// frame. In one copy, since faces of both parts are cut by it and must meet to the last bit.
+TALUS_HD TALUS_ONE_COPY inline HalfSpace between_planes(const HalfSpace& of_a, const HalfSpace& of_b,
+                                                        const FrameChange& b_to_a) {
+  const Vec3 normal_b = b_to_a.direction(of_b.normal);
+  const Real offset_b = b_to_a.scale * of_b.offset + dot(normal_b, b_to_a.translation);
+  const Real sign = dot(of_a.normal, normal_b) < 0 ? 1 : -1;
+  return {of_a.normal + sign * normal_b, of_a.offset + sign * offset_b};
+}
+
 /// The pairs of face planes, one of each part, that are nearly one plane. Which of two such faces bounds the overlap,
-/// or whether the parts have reached each other there, is decided by the distance between the two planes, found once:
-/// the same number for the faces of both.
+/// or whether the parts have reached each other there, is decided by the distance between the two planes: the same
+/// number for the faces of both.
 struct FlushPlanes {
   struct Pair {
-    /// Of opposed planes: between the two. Else inside a's, seen from b's. In a's frame.
-    HalfSpace between;
     std::uint8_t plane_a, plane_b;  // first faces in them
     bool is_opposed;
     bool is_one;  // but for rounding
@@ -39,15 +47,17 @@ struct FlushPlanes {
   ScratchArray<Pair, kMost> pair;
   int count = 0;
 
-  /// `sides`: b's vertices by the planes of a, or a's by those of b.
+  /// `sides`: b's `vertices` by the planes of a, or a's by those of b, and what is near is nearer than `near` [m].
   TALUS_HD TALUS_DEVICE_CALL void find(const PartView& a, const PartView& b, const FrameChange& b_to_a,
-                                       const PlaneSides& sides, bool is_by_a, const FlushRule& rule) {
+                                       const FlushRule& rule, bool is_by_a, const PlaneSides& sides,
+                                       const PartVertices& vertices, LocalReal near) {
     const PartView &solid = is_by_a ? a : b, &surface = is_by_a ? b : a;
     for (int k = 0; k < sides.near_count; ++k) {
-      const int plane = sides.near_plane[k];
+      const int plane = sides.near[k];
       if (solid.faces[plane].plane != plane) continue;
+      const std::uint64_t touching = vertices_near(solid.planes[plane], vertices, near);
       for (int f = 0; f < surface.range.face_count; ++f)
-        if (surface.faces[f].plane == f && (surface.faces[f].vertices & ~sides.near[k]) == 0)
+        if (surface.faces[f].plane == f && (surface.faces[f].vertices & ~touching) == 0)
           add(a, is_by_a ? plane : f, b, is_by_a ? f : plane, b_to_a, rule);
     }
   }
@@ -56,16 +66,12 @@ struct FlushPlanes {
   TALUS_HD void add(const PartView& a, int plane_a, const PartView& b, int plane_b, const FrameChange& b_to_a,
                     const FlushRule& rule) {
     const HalfSpace of_a = a.planes[plane_a], of_b = b.planes[plane_b];
-    const Vec3 normal_b = b_to_a.direction(of_b.normal);
-    const Real offset_b = b_to_a.scale * of_b.offset + dot(normal_b, b_to_a.translation);
-    const bool is_opposed = dot(of_a.normal, normal_b) < 0;
-    const HalfSpace between = is_opposed ? HalfSpace{of_a.normal + normal_b, of_a.offset + offset_b}
-                                         : HalfSpace{of_a.normal - normal_b, of_a.offset - offset_b};
+    const HalfSpace between = between_planes(of_a, of_b, b_to_a);
     const Real sine = norm(between.normal);
     if (sine > kNearlyFlush || count == kMost) return;
+    const bool is_opposed = dot(of_a.normal, b_to_a.direction(of_b.normal)) < 0;
     const bool is_one = std::abs(between.offset) + sine * rule.reach <= rule.tolerance;
-    pair[count++] = {between, static_cast<std::uint8_t>(plane_a), static_cast<std::uint8_t>(plane_b), is_opposed,
-                     is_one};
+    pair[count++] = {static_cast<std::uint8_t>(plane_a), static_cast<std::uint8_t>(plane_b), is_opposed, is_one};
   }
 };
 
@@ -101,11 +107,13 @@ struct FlushSide {
 
   /// Where a face of the surface in the pair's planes counts, in the solid's frame.
   TALUS_HD LocalHalfSpace where_it_counts(const FlushPlanes::Pair& pair) const {
-    if (!is_a) return rounded(pair.between);
+    const PartView &a = is_a ? surface : solid, &b = is_a ? solid : surface;
+    const HalfSpace between = between_planes(a.planes[pair.plane_a], b.planes[pair.plane_b], b_to_a);
+    if (!is_a) return rounded(between);
     const Real sign = pair.is_opposed ? 1 : -1;
-    const Vec3 normal = sign * pair.between.normal;
+    const Vec3 normal = sign * between.normal;
     return rounded(HalfSpace{b_to_a.scale * transpose_times(b_to_a.rotation, normal),
-                             sign * pair.between.offset - dot(normal, b_to_a.translation)});
+                             sign * between.offset - dot(normal, b_to_a.translation)});
   }
 };
 

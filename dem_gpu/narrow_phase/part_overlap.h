@@ -180,9 +180,9 @@ TALUS_HD TALUS_DEVICE_CALL bool visit_surface_inside(const PartView& surface, co
 /// The same where faces of the surface are flush with planes of the solid: after all others each of them by itself.
 /// `side.surface` and `side.solid` are the parts.
 template <class Visitor>
-TALUS_HD bool visit_flush_surface_inside(const FlushSide& side, const FaceSet& wanted, const PartVertices& vertices,
-                                         const PlaneSides& sides, LocalReal tolerance, Meeting& meeting,
-                                         Visitor&& visitor) {
+TALUS_HD TALUS_DEVICE_CALL bool visit_flush_surface_inside(const FlushSide& side, const FaceSet& wanted,
+                                                           const PartVertices& vertices, const PlaneSides& sides,
+                                                           LocalReal tolerance, Meeting& meeting, Visitor&& visitor) {
   const FaceSet flush = side.planes.count > 0 ? side.faces() : FaceSet{};
   const int last = side.planes.count > 0 ? side.surface.range.face_count : 0;
   FlushSolid seen;
@@ -310,7 +310,8 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
 
   FlushPlanes flush;
   if (sides_a.near_count + sides_b.near_count > 0)
-    flush.find(a, b, b_to_a, is_b_smaller ? sides_b : sides_a, is_b_smaller, rule);
+    flush.find(a, b, b_to_a, rule, is_b_smaller, is_b_smaller ? sides_b : sides_a,
+               is_b_smaller ? vertices_b : vertices_a, is_b_smaller ? near_a : near_b);
   const auto add = [&](auto&& visit, const PartView& solid, const PartVertices& vertices, auto&& add_piece) {
     if constexpr (Integrals::kNeedsDepthPlanes)
       return integrate_near_depth(solid, vertices, visit, add_piece);

@@ -27,28 +27,30 @@ struct PlacedPart {
 /// Faces of a body in planes that bound a solid, to rounding. Where the body lies on the inner side they count, whole,
 /// so that of two solids that share the plane they count for one.
 struct FacesInPlanes {
-  const PartView& part;
-  const PlaneSides& sides;
+  const PlacedPart& body;
   const LocalHalfSpace* planes;
+  const PlaneSides& sides;
+  LocalReal tolerance;  // [m]
 
-  TALUS_HD bool lies_in(int face, int near) const { return (part.faces[face].vertices & ~sides.near[near]) == 0; }
-
+  TALUS_HD bool lie_in(std::uint64_t vertices, int plane) const {
+    return (vertices & ~vertices_near(planes[plane], body.vertices, tolerance)) == 0;
+  }
   TALUS_HD FaceSet faces() const {
     FaceSet flush;
-    for (int f = 0; f < part.range.face_count; ++f)
+    for (int f = 0; f < body.part.range.face_count; ++f)
       for (int k = 0; k < sides.near_count; ++k)
-        if (lies_in(f, k)) flush.add(f);
+        if (lie_in(body.part.faces[f].vertices, sides.near[k])) flush.add(f);
     return flush;
   }
 
   /// What cuts one of these faces: all but the planes that it lies in. False if it does not count.
-  TALUS_HD bool set_sides(const PlacedPart& body, int face, PlaneSides& of_face) const {
+  TALUS_HD bool set_sides(int face, PlaneSides& of_face) const {
     const LocalVec3 normal = rounded(body.face_normal(face));
     FaceSet own;
     for (int k = 0; k < sides.near_count; ++k) {
-      if (!lies_in(face, k)) continue;
-      if (dot(planes[sides.near_plane[k]].normal, normal) < 0) return false;
-      own.add(sides.near_plane[k]);
+      if (!lie_in(body.part.faces[face].vertices, sides.near[k])) continue;
+      if (dot(planes[sides.near[k]].normal, normal) < 0) return false;
+      own.add(sides.near[k]);
     }
     of_face.plane_count = 0;
     for (int k = 0; k < sides.plane_count; ++k) {
@@ -74,7 +76,7 @@ TALUS_HD bool visit_part_inside(const PlacedPart& body, const LocalHalfSpace* pl
   PlaneSides sides;
   const LocalReal tolerance = rounded(kCoplanarity * body.radius);
   if (classify(solid, body.vertices, tolerance, sides) >= 0) return true;
-  const FacesInPlanes in_planes{body.part, sides, planes};
+  const FacesInPlanes in_planes{body, planes, sides, tolerance};
   const FaceSet flush = in_planes.faces();
   const int last = flush.is_empty() ? 0 : body.part.range.face_count;
   PlaneSides of_face;
@@ -84,7 +86,7 @@ TALUS_HD bool visit_part_inside(const PlacedPart& body, const LocalHalfSpace* pl
   bool is_whole = true;
   for (int f = 0;; ++f) {
     is_whole &= visit_surface_inside(body.part, visited, solid, body.vertices, *cutting, tolerance, meeting, visitor);
-    while (f < last && !(flush.has(f) && in_planes.set_sides(body, f, of_face))) ++f;
+    while (f < last && !(flush.has(f) && in_planes.set_sides(f, of_face))) ++f;
     if (f >= last) return is_whole;
     visited = {};
     visited.add(f);

@@ -54,9 +54,7 @@ struct PlaneSides {
   ScratchArray<std::uint64_t, kMaxPartFaces + kLanes> outside;
   ScratchArray<std::uint8_t, kMaxPartFaces + kLanes> plane;  // faces whose planes have vertices in front: they cut
   int plane_count;
-  // Of each plane that holds three vertices and more, nearly: bit v for such a vertex. A face may lie flush in it.
-  ScratchArray<std::uint64_t, kMaxPartFaces> near;
-  ScratchArray<std::uint8_t, kMaxPartFaces> near_plane;
+  ScratchArray<std::uint8_t, kMaxPartFaces> near;  // faces whose planes three vertices and more are near to
   int near_count;
 
   TALUS_HD void fill_up() {
@@ -74,6 +72,17 @@ TALUS_HD inline std::uint64_t vertices_below(const LocalHalfSpace& plane, const 
   for (int i = 0; i < vertices.block_count(); ++i)
     below |= std::uint64_t{lanes_above(depths_below(plane, vertices.block(i)), Lanes{})} << (i * kLanes);
   return below & vertices.all();
+}
+
+/// Bit v for a vertex nearer to the plane than `near` [m].
+TALUS_HD inline std::uint64_t vertices_near(const LocalHalfSpace& plane, const PartVertices& vertices, LocalReal near) {
+  const Lanes near_squared = every_lane<Lanes>(near * near);
+  std::uint64_t touching = 0;
+  for (int i = 0; i < vertices.block_count(); ++i) {
+    const Lanes depth = depths_below(plane, vertices.block(i));
+    touching |= std::uint64_t{lanes_above(near_squared, depth * depth)} << (i * kLanes);
+  }
+  return touching & vertices.all();
 }
 
 /// Sorts the vertices (in the solid's frame) by the solid's planes, after Cohen and Sutherland's outcodes, and finds
@@ -98,10 +107,7 @@ TALUS_HD TALUS_DEVICE_CALL inline int classify(const PartView& solid, const Part
     if (touching != 0) {
       // Three bits and more: clearing the lowest two leaves some.
       const std::uint64_t without_lowest = touching & (touching - 1);
-      if ((without_lowest & (without_lowest - 1)) != 0) {
-        sides.near[near_count] = touching;
-        sides.near_plane[near_count++] = static_cast<std::uint8_t>(f);
-      }
+      if ((without_lowest & (without_lowest - 1)) != 0) sides.near[near_count++] = static_cast<std::uint8_t>(f);
     }
     sides.outside[cutting] = in_front;
     sides.plane[cutting] = static_cast<std::uint8_t>(f);
