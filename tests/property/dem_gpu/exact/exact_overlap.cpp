@@ -19,18 +19,28 @@ namespace {
 using Interval = CGAL::Interval_nt_advanced;
 using Lazy = CGAL::Lazy_exact_nt<CGAL::Exact_rational>;
 
-/// How far apart two planes are at most within `reach` of the origin. (Conversions to double lose far less than any
+/// Two planes with nearly equal normals, seen from the origin. (Conversions to double lose far less than any
 /// tolerance.)
-template <class Number>
-double largest_gap(const HalfSpace<Number>& a, const HalfSpace<Number>& b, double reach) {
-  const auto unit = [](const HalfSpace<Number>& plane) {
+struct NearPlanes {
+  double offset, sine;
+
+  template <class Number>
+  NearPlanes(const HalfSpace<Number>& a, const HalfSpace<Number>& b) {
+    const Vec3 normal_a = unit(a), normal_b = unit(b);
+    offset = std::abs(dot(normal_a, rounded(a.point)) - dot(normal_b, rounded(b.point)));
+    sine = norm(normal_a - normal_b);
+  }
+  /// How far apart they are at most within `reach`.
+  double largest_gap(double reach) const { return offset + reach * sine; }
+  bool cross_within(double reach) const { return offset <= reach * sine && sine < 1e-5; }
+
+ private:
+  template <class Number>
+  static Vec3 unit(const HalfSpace<Number>& plane) {
     const Vec3 normal = rounded(plane.normal);
     return (1 / norm(normal)) * normal;
-  };
-  const Vec3 normal_a = unit(a), normal_b = unit(b);
-  return std::abs(dot(normal_a, rounded(a.point)) - dot(normal_b, rounded(b.point))) +
-         reach * norm(normal_a - normal_b);
-}
+  }
+};
 
 /// What a facet of the overlap inherits from the face it comes from: the normal, and whether that face is flush with
 /// one of the other body.
@@ -42,8 +52,12 @@ class BodyFaces {
     constexpr double kClear = 1.1;
     for (std::size_t i = 0; i < normals_a_.size(); ++i)
       for (std::size_t j = 0; j < normals_b_.size(); ++j) {
-        const double apart = largest_gap(a.plane(static_cast<int>(i)), b.plane(static_cast<int>(j)), flush.reach);
-        if (apart <= flush.tolerance) of_a_[i] = std::max(of_a_[i], apart), of_b_[j] = std::max(of_b_[j], apart);
+        const NearPlanes planes(a.plane(static_cast<int>(i)), b.plane(static_cast<int>(j)));
+        const double apart = planes.largest_gap(flush.reach);
+        if (apart <= flush.tolerance)
+          of_a_[i] = std::max(of_a_[i], apart), of_b_[j] = std::max(of_b_[j], apart);
+        else if (planes.cross_within(flush.reach))
+          near_seam_ += flush.reach / planes.sine;
         may_be_flush_ |= apart <= kClear * flush.tolerance && kClear * apart >= flush.tolerance;
       }
   }
@@ -56,6 +70,8 @@ class BodyFaces {
     return face.is_of_a ? normals_a_[face.source] : normals_b_[face.source];
   }
   bool may_be_flush() const { return may_be_flush_; }
+  /// As Overlap::seam, of nearly flush planes that cross near the overlap, and might in it.
+  double near_seam() const { return near_seam_; }
 
  private:
   static std::vector<Vec3> normals(const Mesh<Number>& mesh) {
@@ -66,6 +82,7 @@ class BodyFaces {
   std::vector<Vec3> normals_a_, normals_b_;
   std::vector<double> of_a_, of_b_;  // gaps
   bool may_be_flush_ = false;
+  double near_seam_ = 0;
 };
 
 /// V, S, M before rounding.
@@ -91,6 +108,7 @@ void measure(const Solid<Number>& solid, const BodyFaces<Number>& bodies, Overla
     bool is_of_a;
     Vec3 normal;
   };
+  overlap.seam = bodies.near_seam();
   std::map<std::pair<int, int>, Side> sides;
   std::vector<Vec3> vertices;  // about the first, so that the smallest overlaps keep their digits
   for (const Vector<Number>& vertex : solid.vertices) vertices.push_back(rounded(vertex - solid.vertices[0]));

@@ -32,7 +32,7 @@ struct Overlap {
   bool may_be_flush = false;  // rounding may tell otherwise of some faces whether they are flush
   double surface = 0;         // area of the overlap's whole surface [m2]
   /// Sum over the edges where a face of a meets one of b of length / sin(angle between the faces): how fast these edges
-  /// move when a body moves [m].
+  /// move when a body moves [m]. Of nearly flush faces that cross near the overlap as well.
   double seam = 0;
   bool needed_exact = false;  // intervals of doubles were too wide
 

@@ -105,7 +105,7 @@ void compare(const Pair& pair, Errors& worst) {
   raise(worst.moment, norm(ab.area_moment - exact.area_moment) / (area_scale * size));
   // Seen from b, within its reach, other faces may be flush.
   const exact::Overlap seen_from_b = exact::overlap(b, a, flush_rule(pair.part_b, b.pose, pair.part_a, a.pose));
-  if (!seen_from_b.may_be_flush) raise(worst.symmetry, norm(ba.area - seen_from_b.area) / area_scale);
+  if (!seen_from_b.may_be_flush) raise(worst.symmetry, norm(ba.area - seen_from_b.area) / seen_from_b.area_scale(size));
 }
 
 double worst_of(const Errors& e) { return std::max({e.volume, e.volume_smaller, e.area, e.moment, e.symmetry}); }
