@@ -51,7 +51,8 @@ TALUS_HD PairOutcome integrate_bodies(const ShapeView& shapes, int shape_a, int 
   const ShapeRange& range_a = shapes.shapes[shape_a];
   const ShapeRange& range_b = shapes.shapes[shape_b];
   const FrameChange b_to_a = frame_change(a, b), a_to_b = frame_change(b, a);
-  const FlushRule rule = FlushRule::of(range_a.bounding_radius, b_to_a.scale * range_b.bounding_radius);
+  const FlushRule rule =
+      FlushRule::of(range_a.bounding_radius, b_to_a.scale * range_b.bounding_radius, b_to_a.translation);
   PairOutcome outcome;
   Real least = std::numeric_limits<Real>::max();  // distance of a pair of parts [m in a's unscaled frame]
   for (int j = 0; j < range_b.part_count; ++j) {

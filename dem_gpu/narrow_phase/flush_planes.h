@@ -16,11 +16,14 @@ constexpr Real kNearlyFlush = local_tolerance(1e-6, 1e-3);
 /// What two bodies' planes are compared by, in a's unscaled frame. Of the bodies, not of their parts: where a face lies
 /// in a cut of the other body, the parts on both sides of the cut must tell the same.
 struct FlushRule {
-  Real reach = 0;      // of body a from its centre [m]
+  Vec3 middle;         // between the bodies' centres: the rule is the same whichever of them is a [m]
+  Real reach = 0;      // of both bodies from there [m]
   Real tolerance = 0;  // planes nowhere further apart than this within reach are one [m]
 
-  TALUS_HD static FlushRule of(Real radius_a, Real radius_b) {
-    return {radius_a, kCoplanarity * (radius_a + radius_b)};
+  TALUS_HD static FlushRule of(Real radius_a, Real radius_b, const Vec3& from_a_to_b) {
+    const Real smaller_radius = radius_a < radius_b ? radius_a : radius_b;
+    return {Real(0.5) * from_a_to_b, Real(0.5) * norm(from_a_to_b) + smaller_radius,
+            kCoplanarity * (radius_a + radius_b)};
   }
 };
 
@@ -70,7 +73,8 @@ struct FlushPlanes {
     const Real sine = norm(between.normal);
     if (sine > kNearlyFlush || count == kMost) return;
     const bool is_opposed = dot(of_a.normal, b_to_a.direction(of_b.normal)) < 0;
-    const bool is_one = std::abs(between.offset) + sine * rule.reach <= rule.tolerance;
+    const Real gap = between.offset - dot(between.normal, rule.middle);
+    const bool is_one = std::abs(gap) + sine * rule.reach <= rule.tolerance;
     pair[count++] = {static_cast<std::uint8_t>(plane_a), static_cast<std::uint8_t>(plane_b), is_opposed, is_one};
   }
 };

@@ -101,7 +101,7 @@ void check_partition(const Shape& shape) {
   const ShapeView shapes = view(columns);
   const FrameChange same{{}, {}, 1};
   const Real radius = columns.shapes[0].bounding_radius;
-  const FlushRule rule = FlushRule::of(radius, radius);
+  const FlushRule rule = FlushRule::of(radius, radius, {});
   Real shared = 0;
   for (int i = 0; i < columns.shapes[0].part_count; ++i)
     for (int j = i + 1; j < columns.shapes[0].part_count; ++j) {

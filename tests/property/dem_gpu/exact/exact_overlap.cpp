@@ -19,15 +19,15 @@ namespace {
 using Interval = CGAL::Interval_nt_advanced;
 using Lazy = CGAL::Lazy_exact_nt<CGAL::Exact_rational>;
 
-/// Two planes with nearly equal normals, seen from the origin. (Conversions to double lose far less than any
+/// Two planes with nearly equal normals, seen from a point. (Conversions to double lose far less than any
 /// tolerance.)
 struct NearPlanes {
   double offset, sine;
 
   template <class Number>
-  NearPlanes(const HalfSpace<Number>& a, const HalfSpace<Number>& b) {
+  NearPlanes(const HalfSpace<Number>& a, const HalfSpace<Number>& b, const Vec3& from) {
     const Vec3 normal_a = unit(a), normal_b = unit(b);
-    offset = std::abs(dot(normal_a, rounded(a.point)) - dot(normal_b, rounded(b.point)));
+    offset = std::abs(dot(normal_a, rounded(a.point) - from) - dot(normal_b, rounded(b.point) - from));
     sine = norm(normal_a - normal_b);
   }
   /// How far apart they are at most within `reach`.
@@ -52,7 +52,7 @@ class BodyFaces {
     constexpr double kClear = 1.1;
     for (std::size_t i = 0; i < normals_a_.size(); ++i)
       for (std::size_t j = 0; j < normals_b_.size(); ++j) {
-        const NearPlanes planes(a.plane(static_cast<int>(i)), b.plane(static_cast<int>(j)));
+        const NearPlanes planes(a.plane(static_cast<int>(i)), b.plane(static_cast<int>(j)), flush.middle);
         const double apart = planes.largest_gap(flush.reach);
         if (apart <= flush.tolerance)
           of_a_[i] = std::max(of_a_[i], apart), of_b_[j] = std::max(of_b_[j], apart);

@@ -44,9 +44,10 @@ struct Overlap {
   bool is_well_conditioned(double size) const { return volume > 0 && volume_scale(size) <= volume; }
 };
 
-/// Faces with equal normals whose planes are nowhere further apart than `tolerance` within `reach` of a's position are
+/// Faces with equal normals whose planes are nowhere further apart than `tolerance` within `reach` of `middle` are
 /// flush [m]. Which body owns such a facet is a convention, so the engine's rule is part of the definition of S and M.
 struct FlushRule {
+  Vec3 middle;  // from a's position, world axes
   double reach = 0, tolerance = 0;
 };
 Overlap overlap(const Body& a, const Body& b, const FlushRule& flush);

@@ -57,8 +57,8 @@ exact::FlushRule flush_rule(const catalog::ConvexPart& part_a, const BodyPose& a
   const auto radius = [](const catalog::ConvexPart& part, const BodyPose& pose) {
     return pose.scale * dem_gpu::make_host_shape_columns({shape_of(part)}, 1).shapes[0].bounding_radius;
   };
-  const auto rule = dem_gpu::FlushRule::of(radius(part_a, a), radius(part_b, b));
-  return {rule.reach, rule.tolerance};
+  const auto rule = dem_gpu::FlushRule::of(radius(part_a, a), radius(part_b, b), b.position - a.position);
+  return {rule.middle, rule.reach, rule.tolerance};
 }
 
 bool is_finite(const OverlapSolid& overlap) {
