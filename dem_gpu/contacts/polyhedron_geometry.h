@@ -51,6 +51,8 @@ TALUS_HD PairOutcome integrate_bodies(const ShapeView& shapes, int shape_a, int 
   const ShapeRange& range_a = shapes.shapes[shape_a];
   const ShapeRange& range_b = shapes.shapes[shape_b];
   const FrameChange b_to_a = frame_change(a, b), a_to_b = frame_change(b, a);
+  const FlushRule rule =
+      FlushRule::of(range_a.bounding_radius, b_to_a.scale * range_b.bounding_radius, b_to_a.translation);
   PairOutcome outcome;
   Real least = std::numeric_limits<Real>::max();  // distance of a pair of parts [m in a's unscaled frame]
   for (int j = 0; j < range_b.part_count; ++j) {
@@ -68,7 +70,7 @@ TALUS_HD PairOutcome integrate_bodies(const ShapeView& shapes, int shape_a, int 
       if (distance < 0) {
         const OverlapStatus status =
             integrate_overlap(part_view(shapes, range_a.first_part + i), part_view(shapes, range_b.first_part + j),
-                              b_to_a, a_to_b, separating[i * range_b.part_count + j], integrals, distance);
+                              b_to_a, a_to_b, rule, separating[i * range_b.part_count + j], integrals, distance);
         if (status == OverlapStatus::polygon_truncated) outcome.is_whole = false;
       }
       least = std::min(least, distance);

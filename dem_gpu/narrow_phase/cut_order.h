@@ -18,8 +18,7 @@ struct CornerRun {
   int first, count;
 };
 
-/// The longest row of corners inside. Those of a convex polygon are one row, but for rounding where it lies flush with
-/// the plane: then the longest stands for all.
+/// The longest row of corners inside. Those of a convex polygon are one row but for rounding.
 TALUS_HD constexpr CornerRun run_inside(int corner_count, LaneSet inside) {
   if (inside == (1u << corner_count) - 1) return {0, corner_count};
   CornerRun longest{0, 0};

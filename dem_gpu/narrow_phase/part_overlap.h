@@ -5,37 +5,13 @@
 #include <cstdint>
 #include <limits>
 
+#include "dem_gpu/narrow_phase/flush_planes.h"
 #include "dem_gpu/narrow_phase/near_depth.h"
 #include "dem_gpu/narrow_phase/polygon.h"
 #include "dem_gpu/narrow_phase/separating_plane.h"
 #include "dem_gpu/narrow_phase/surface_pieces.h"
 
 namespace dem_gpu {
-
-/// Which faces count that lie in a face plane of the other part. Opposed normals: none, the parts only touch there.
-/// Equal normals: one of the two, the outer one rather than the inner one, else that of the open part; so coincident
-/// faces count once, and a face in another body's cut plane as if there were no cut.
-struct CoplanarRule {
-  const PlaneSides& sides;
-  LocalReal tolerance;  // [m]
-  bool is_closed;       // the solid is the closed one of the two
-
-  TALUS_HD bool keeps(const Polygon& face, bool is_inner_face, const PartView& solid) const {
-    for (int k = 0; k < sides.coplanar_count; ++k) {
-      const int f = sides.coplanar[k];
-      const LocalHalfSpace plane = solid.planes[f];
-      const Lanes depths = depths_below(plane, face.corners);
-      const Lanes above = every_lane<Lanes>(tolerance), below = every_lane<Lanes>(-tolerance);
-      if ((lanes_above(depths, above) | lanes_above(below, depths)) != 0) continue;
-      const LocalVec3 corner = face.corner(0);
-      const LocalVec3 area = cross(face.corner(1) - corner, face.corner(2) - corner);
-      if (dot(plane.normal, area) < 0) return false;
-      const bool is_inner_plane = f >= solid.range.outer_face_count;
-      return is_inner_face == is_inner_plane ? is_closed : is_inner_plane;
-    }
-    return true;
-  }
-};
 
 /// What of a surface and a solid meets: the surface's faces with a piece inside, and the solid's planes that cut them.
 struct Meeting {
@@ -164,14 +140,14 @@ TALUS_HD TALUS_INLINE bool cut_to_solid(const PartView& solid, const PlaneSides&
 }
 
 /// Visits each piece of `surface`'s faces that lies inside `solid`, both convex. `vertices` are the surface's, already
-/// in the solid's frame, with their outcodes against the solid's planes. Only `wanted` faces; each clipped face is an
-/// independent polygon, no topology is built. visitor(polygon in the solid's frame, face index). Returns false if a
-/// polygon was truncated.
+/// in the solid's frame, with their outcodes against the solid's planes, which are rounded to `tolerance` [m] at most.
+/// Only `wanted` faces; each clipped face is an independent polygon, no topology is built. visitor(polygon in the
+/// solid's frame, face index). Returns false if a polygon was truncated.
 template <class Visitor>
 TALUS_HD TALUS_DEVICE_CALL bool visit_surface_inside(const PartView& surface, const FaceSet& wanted,
                                                      const PartView& solid, const PartVertices& vertices,
-                                                     const PlaneSides& sides, const CoplanarRule& coplanar,
-                                                     Meeting& meeting, Visitor&& visitor) {
+                                                     const PlaneSides& sides, LocalReal tolerance, Meeting& meeting,
+                                                     Visitor&& visitor) {
   bool is_whole = true;
   meeting = {};
   for (int first = 0; first < surface.range.face_count; first += kLanes) {
@@ -182,13 +158,10 @@ TALUS_HD TALUS_DEVICE_CALL bool visit_surface_inside(const PartView& surface, co
       CutPieces pieces;
       bool fits = true;
       for (int i = begin; i < begin + together && fits; ++i) {
-        const int f = polygons.face[i];
         const FacePiece& piece = surface.face_pieces[polygons.piece[i]];
-        const Polygon polygon{vertices.at(piece.corner), piece.count};
-        if (sides.coplanar_count > 0 && !coplanar.keeps(polygon, f >= surface.range.outer_face_count, solid)) continue;
-        fits = pieces.add(polygon, f);
+        fits = pieces.add({vertices.at(piece.corner), piece.count}, polygons.face[i]);
       }
-      fits = fits && cut_to_solid(solid, sides, coplanar.tolerance, pieces, meeting);
+      fits = fits && cut_to_solid(solid, sides, tolerance, pieces, meeting);
       if (!fits && together > 1) {
         together = 1;
         continue;
@@ -202,6 +175,30 @@ TALUS_HD TALUS_DEVICE_CALL bool visit_surface_inside(const PartView& surface, co
     }
   }
   return is_whole;
+}
+
+/// The same where faces of the surface are flush with planes of the solid: after all others each of them by itself.
+/// `side.surface` and `side.solid` are the parts.
+template <class Visitor>
+TALUS_HD TALUS_DEVICE_CALL bool visit_flush_surface_inside(const FlushSide& side, const FaceSet& wanted,
+                                                           const PartVertices& vertices, const PlaneSides& sides,
+                                                           LocalReal tolerance, Meeting& meeting, Visitor&& visitor) {
+  const FaceSet flush = side.planes.count > 0 ? side.faces() : FaceSet{};
+  const int last = side.planes.count > 0 ? side.surface.range.face_count : 0;
+  FlushSolid seen;
+  PartView solid = side.solid;
+  const PlaneSides* seen_sides = &sides;
+  FaceSet visited = wanted.without(flush);
+  bool is_whole = true;
+  for (int f = 0;; ++f) {
+    is_whole &= visit_surface_inside(side.surface, visited, solid, vertices, *seen_sides, tolerance, meeting, visitor);
+    while (f < last && !(flush.has(f) && seen.set(side, f, vertices, sides))) ++f;
+    if (f >= last) return is_whole;
+    visited = {};
+    visited.add(f);
+    solid.planes = seen.planes.data();
+    seen_sides = &seen.sides;
+  }
 }
 
 /// Of the planes of a part's faces those that have any of some faces.
@@ -270,8 +267,8 @@ TALUS_HD TALUS_DEVICE_CALL bool integrate_near_depth(const PartView& solid, cons
 enum class OverlapStatus : std::uint8_t { separated, overlapping, polygon_truncated };
 
 /// Sums `Integrals` over the overlap of part a of one body and part b of another. `b_to_a` and `a_to_b` are inverse
-/// frame changes; `separating` is the pair's cache. `distance`: of separated parts, that they are apart at least, in
-/// a's unscaled frame [m]; 0 where that is not known. `Integrals` provides:
+/// frame changes; `rule` of the two bodies; `separating` is the pair's cache. `distance`: of separated parts, that they
+/// are apart at least, in a's unscaled frame [m]; 0 where that is not known. `Integrals` provides:
 ///   kNeedsDepthPlanes                           whether depth fields are integrated; then also
 ///   is_truncated                                whether a piece of a polygon did not fit
 ///   finish()                                    without depth fields: ends the pair
@@ -280,8 +277,8 @@ enum class OverlapStatus : std::uint8_t { separated, overlapping, polygon_trunca
 /// Cut faces are visited too.
 template <class Integrals>
 TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, const FrameChange& b_to_a,
-                                         const FrameChange& a_to_b, SeparatingPlane& separating, Integrals& integrals,
-                                         Real& distance) {
+                                         const FrameChange& a_to_b, const FlushRule& rule, SeparatingPlane& separating,
+                                         Integrals& integrals, Real& distance) {
   distance = 0;
   if (separating != 0) {
     distance = separating > 0 ? distance_outside(b, a.planes[separating - 1], b_to_a)
@@ -294,19 +291,27 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
   PlaneSides sides_b, sides_a;
   const LocalReal tolerance_a = rounded(kCoplanarity * (a.range.radius + b_to_a.scale * b.range.radius));
   const LocalReal tolerance_b = rounded(kCoplanarity * (b.range.radius + a_to_b.scale * a.range.radius));
+  // Of the smaller part only: a large one's vertices are far from a plane that is nearly flush.
+  const bool is_b_smaller = b_to_a.scale * b.range.radius <= a.range.radius;
+  const LocalReal near_a = is_b_smaller ? tolerance_a + rounded(kNearlyFlush * b_to_a.scale * b.range.radius) : 0;
+  const LocalReal near_b = is_b_smaller ? 0 : tolerance_b + rounded(kNearlyFlush * a_to_b.scale * a.range.radius);
   transform_vertices(b, b_to_a, vertices_b);
-  const int face_a = classify(a, vertices_b, tolerance_a, sides_b);
+  const int face_a = classify(a, vertices_b, near_a, sides_b);
   if (face_a >= 0) {
     separating = static_cast<SeparatingPlane>(face_a + 1);
     return OverlapStatus::separated;
   }
   transform_vertices(a, a_to_b, vertices_a);
-  const int face_b = classify(b, vertices_a, tolerance_b, sides_a);
+  const int face_b = classify(b, vertices_a, near_b, sides_a);
   if (face_b >= 0) {
     separating = static_cast<SeparatingPlane>(-face_b - 1);
     return OverlapStatus::separated;
   }
 
+  FlushPlanes flush;
+  if (sides_a.near_count + sides_b.near_count > 0)
+    flush.find(a, b, b_to_a, rule, is_b_smaller, is_b_smaller ? sides_b : sides_a,
+               is_b_smaller ? vertices_b : vertices_a, is_b_smaller ? near_a : near_b);
   const auto add = [&](auto&& visit, const PartView& solid, const PartVertices& vertices, auto&& add_piece) {
     if constexpr (Integrals::kNeedsDepthPlanes)
       return integrate_near_depth(solid, vertices, visit, add_piece);
@@ -315,7 +320,8 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
   };
   const auto add_b = [&](const FaceSet& wanted, Meeting& meeting) {
     const auto visit = [&](auto&& visitor) {
-      return visit_surface_inside(b, wanted, a, vertices_b, sides_b, {sides_b, tolerance_a, true}, meeting, visitor);
+      return visit_flush_surface_inside({flush, b, a, b_to_a, false}, wanted, vertices_b, sides_b, tolerance_a, meeting,
+                                        visitor);
     };
     return add(visit, a, vertices_b, [&](Polygon& polygon, int face, const PartView& solid) {
       integrals.add_surface_b(polygon, b.planes[face], face < b.range.outer_face_count, solid, b_to_a);
@@ -323,7 +329,8 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
   };
   const auto add_a = [&](const FaceSet& wanted, Meeting& meeting) {
     const auto visit = [&](auto&& visitor) {
-      return visit_surface_inside(a, wanted, b, vertices_a, sides_a, {sides_a, tolerance_b, false}, meeting, visitor);
+      return visit_flush_surface_inside({flush, a, b, b_to_a, true}, wanted, vertices_a, sides_a, tolerance_b, meeting,
+                                        visitor);
     };
     return add(visit, b, vertices_a, [&](Polygon& polygon, int face, const PartView& solid) {
       integrals.add_surface_a(polygon, a.planes[face], face < a.range.outer_face_count, solid, b_to_a);
@@ -331,7 +338,7 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
   };
   // The body that reaches in with fewer of its vertices comes first: few of its faces lie inside, and they tell which
   // of the other's are worth a look. Where faces lie flush all are looked at.
-  const bool is_flush = sides_a.coplanar_count + sides_b.coplanar_count > 0;
+  const bool is_flush = flush.count > 0;
   Meeting meeting;
   bool is_whole;
   if (sides_b.least_inside(vertices_b) <= sides_a.least_inside(vertices_a)) {

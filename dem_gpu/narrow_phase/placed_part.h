@@ -24,8 +24,46 @@ struct PlacedPart {
   TALUS_HD Vec3 face_normal(int face) const { return change.direction(part.planes[face].normal); }
 };
 
-/// visitor(polygon, face) for each piece of the part's surface inside all of `planes`. A face in one of the planes
-/// counts where the part lies on the inner side, so once for two solids that share the plane. False if a polygon was
+/// Faces of a body in planes that bound a solid, to rounding. Where the body lies on the inner side they count, whole,
+/// so that of two solids that share the plane they count for one.
+struct FacesInPlanes {
+  const PlacedPart& body;
+  const LocalHalfSpace* planes;
+  const PlaneSides& sides;
+  LocalReal tolerance;  // [m]
+
+  TALUS_HD bool lie_in(std::uint64_t vertices, int plane) const {
+    return (vertices & ~vertices_near(planes[plane], body.vertices, tolerance)) == 0;
+  }
+  TALUS_HD FaceSet faces() const {
+    FaceSet flush;
+    for (int f = 0; f < body.part.range.face_count; ++f)
+      for (int k = 0; k < sides.near_count; ++k)
+        if (lie_in(body.part.faces[f].vertices, sides.near[k])) flush.add(f);
+    return flush;
+  }
+
+  /// What cuts one of these faces: all but the planes that it lies in. False if it does not count.
+  TALUS_HD bool set_sides(int face, PlaneSides& of_face) const {
+    const LocalVec3 normal = rounded(body.face_normal(face));
+    FaceSet own;
+    for (int k = 0; k < sides.near_count; ++k) {
+      if (!lie_in(body.part.faces[face].vertices, sides.near[k])) continue;
+      if (dot(planes[sides.near[k]].normal, normal) < 0) return false;
+      own.add(sides.near[k]);
+    }
+    of_face.plane_count = 0;
+    for (int k = 0; k < sides.plane_count; ++k) {
+      if (own.has(sides.plane[k])) continue;
+      of_face.outside[of_face.plane_count] = sides.outside[k];
+      of_face.plane[of_face.plane_count++] = sides.plane[k];
+    }
+    of_face.fill_up();
+    return true;
+  }
+};
+
+/// visitor(polygon, face) for each piece of the part's surface inside all of `planes`. False if a polygon was
 /// truncated.
 template <class Visitor>
 TALUS_HD bool visit_part_inside(const PlacedPart& body, const LocalHalfSpace* planes, int plane_count,
@@ -38,9 +76,22 @@ TALUS_HD bool visit_part_inside(const PlacedPart& body, const LocalHalfSpace* pl
   PlaneSides sides;
   const LocalReal tolerance = rounded(kCoplanarity * body.radius);
   if (classify(solid, body.vertices, tolerance, sides) >= 0) return true;
+  const FacesInPlanes in_planes{body, planes, sides, tolerance};
+  const FaceSet flush = in_planes.faces();
+  const int last = flush.is_empty() ? 0 : body.part.range.face_count;
+  PlaneSides of_face;
+  const PlaneSides* cutting = &sides;
+  FaceSet visited = FaceSet::all().without(flush);
   Meeting meeting;
-  return visit_surface_inside(body.part, FaceSet::all(), solid, body.vertices, sides, {sides, tolerance, true}, meeting,
-                              visitor);
+  bool is_whole = true;
+  for (int f = 0;; ++f) {
+    is_whole &= visit_surface_inside(body.part, visited, solid, body.vertices, *cutting, tolerance, meeting, visitor);
+    while (f < last && !(flush.has(f) && in_planes.set_sides(f, of_face))) ++f;
+    if (f >= last) return is_whole;
+    visited = {};
+    visited.add(f);
+    cutting = &of_face;
+  }
 }
 
 }  // namespace dem_gpu

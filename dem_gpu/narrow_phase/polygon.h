@@ -26,9 +26,24 @@ TALUS_HD TALUS_INLINE LaneSet corners_inside(const Polygon& polygon, const Lanes
   return ~lanes_above(Lanes{}, depths) & polygon.all();
 }
 
+/// Of the rows of corners inside, the one with the deepest corner. There are several by rounding alone, where corners
+/// lie within rounding of one another: the others are next to nothing.
+TALUS_HD TALUS_ONE_COPY inline LaneSet deepest_row(const Polygon& polygon, const Lanes& depths, LaneSet inside) {
+  int deepest = 0;
+  for (int i = 1; i < polygon.count; ++i) deepest = depths[i] > depths[deepest] ? i : deepest;
+  LaneSet row = 0;
+  for (int i = deepest; (inside >> i & 1) != 0 && (row >> i & 1) == 0; i = (i + 1) % polygon.count) row |= 1u << i;
+  const auto before = [&](int i) { return (i + polygon.count - 1) % polygon.count; };
+  for (int i = before(deepest); (inside >> i & 1) != 0 && (row >> i & 1) == 0; i = before(i)) row |= 1u << i;
+  return row;
+}
+
 /// How a plane cuts a polygon, from the depths of its corners below it.
 TALUS_HD TALUS_INLINE auto cut_order(const Polygon& polygon, const Lanes& depths) -> decltype(cut_order(0, 0u)) {
-  return cut_order(polygon.count, corners_inside(polygon, depths));
+  const LaneSet inside = corners_inside(polygon, depths);
+  const CutOrder& order = cut_order(polygon.count, inside);
+  if (order.inside == count_bits(inside)) return order;
+  return cut_order(polygon.count, deepest_row(polygon, depths, inside));
 }
 TALUS_HD TALUS_INLINE bool outgrows(const CutOrder& order) { return order.count > kLanes; }
 

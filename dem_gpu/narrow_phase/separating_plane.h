@@ -40,6 +40,7 @@ struct FaceSet {
   TALUS_HD bool is_empty() const { return (low | high) == 0; }
   TALUS_HD bool has(int i) const { return ((i < 64 ? low : high) >> (i & 63) & 1) != 0; }
   TALUS_HD void add(const FaceSet& more) { low |= more.low, high |= more.high; }
+  TALUS_HD FaceSet without(const FaceSet& some) const { return {low & ~some.low, high & ~some.high}; }
   TALUS_HD void add(int i) {
     const std::uint64_t bit = std::uint64_t{1} << (i & 63);
     low |= i < 64 ? bit : 0;
@@ -53,8 +54,8 @@ struct PlaneSides {
   ScratchArray<std::uint64_t, kMaxPartFaces + kLanes> outside;
   ScratchArray<std::uint8_t, kMaxPartFaces + kLanes> plane;  // faces whose planes have vertices in front: they cut
   int plane_count;
-  ScratchArray<std::uint8_t, kMaxPartFaces> coplanar;  // faces whose planes hold three vertices and more
-  int coplanar_count;
+  ScratchArray<std::uint8_t, kMaxPartFaces> near;  // faces whose planes three vertices and more are near to
+  int near_count;
 
   TALUS_HD void fill_up() {
     for (int k = plane_count; k < plane_count + kLanes; ++k) outside[k] = 0;
@@ -65,45 +66,49 @@ struct PlaneSides {
   }
 };
 
-/// Bit v for a vertex higher than `height` over the plane.
-TALUS_HD inline std::uint64_t vertices_above(const LocalHalfSpace& plane, const PartVertices& vertices,
-                                             LocalReal height) {
-  const Lanes limit = every_lane<Lanes>(-height);
-  std::uint64_t above = 0;
+/// Bit v for a vertex below the plane.
+TALUS_HD inline std::uint64_t vertices_below(const LocalHalfSpace& plane, const PartVertices& vertices) {
+  std::uint64_t below = 0;
   for (int i = 0; i < vertices.block_count(); ++i)
-    above |= std::uint64_t{lanes_above(limit, depths_below(plane, vertices.block(i)))} << (i * kLanes);
-  return above;
+    below |= std::uint64_t{lanes_above(depths_below(plane, vertices.block(i)), Lanes{})} << (i * kLanes);
+  return below & vertices.all();
 }
 
-/// Sorts the vertices (in the solid's frame) by the solid's planes, after Cohen and Sutherland's outcodes. Where three
-/// vertices and more lie within `tolerance` [m] of a plane, a face may lie flush in it and they all count as inside;
-/// one or two count as they lie, since the plane of a face that is nearly flush would be cut up to tolerance / angle
-/// away. Returns a face whose plane has all vertices in front, or -1.
-TALUS_HD TALUS_DEVICE_CALL inline int classify(const PartView& solid, const PartVertices& vertices, LocalReal tolerance,
+/// Bit v for a vertex nearer to the plane than `near` [m].
+TALUS_HD inline std::uint64_t vertices_near(const LocalHalfSpace& plane, const PartVertices& vertices, LocalReal near) {
+  const Lanes near_squared = every_lane<Lanes>(near * near);
+  std::uint64_t touching = 0;
+  for (int i = 0; i < vertices.block_count(); ++i) {
+    const Lanes depth = depths_below(plane, vertices.block(i));
+    touching |= std::uint64_t{lanes_above(near_squared, depth * depth)} << (i * kLanes);
+  }
+  return touching & vertices.all();
+}
+
+/// Sorts the vertices (in the solid's frame) by the solid's planes, after Cohen and Sutherland's outcodes, and finds
+/// the planes that three of them and more are nearer to than `near` [m]. Returns a face whose plane has all vertices in
+/// front, or -1.
+TALUS_HD TALUS_DEVICE_CALL inline int classify(const PartView& solid, const PartVertices& vertices, LocalReal near,
                                                PlaneSides& sides) {
   const std::uint64_t all = vertices.all();
-  const Lanes clearly_above = every_lane<Lanes>(-tolerance), hardly_below = every_lane<Lanes>(tolerance);
-  int cutting = 0, coplanar = 0, most_in_front = 0, best = 0;
+  const Lanes near_squared = every_lane<Lanes>(near * near);
+  int cutting = 0, near_count = 0, most_in_front = 0, best = 0;
   for (int f = 0; f < solid.range.face_count; ++f) {
     const LocalHalfSpace plane = solid.planes[f];
     std::uint64_t in_front = 0, touching = 0;
     for (int i = 0; i < vertices.block_count(); ++i) {
       const Lanes depth = depths_below(plane, vertices.block(i));
-      in_front |= std::uint64_t{lanes_above(clearly_above, depth)} << (i * kLanes);
-      touching |= std::uint64_t{lanes_above(hardly_below, depth)} << (i * kLanes);
+      in_front |= std::uint64_t{lanes_above(Lanes{}, depth)} << (i * kLanes);
+      touching |= std::uint64_t{lanes_above(near_squared, depth * depth)} << (i * kLanes);
     }
     in_front &= all;
-    touching &= all & ~in_front;
+    if (in_front == all) return f;
+    touching &= all;
     if (touching != 0) {
       // Three bits and more: clearing the lowest two leaves some.
       const std::uint64_t without_lowest = touching & (touching - 1);
-      const bool is_coplanar = (without_lowest & (without_lowest - 1)) != 0;
-      if (is_coplanar)
-        sides.coplanar[coplanar++] = static_cast<std::uint8_t>(f);
-      else
-        in_front |= vertices_above(plane, vertices, 0) & all;
+      if ((without_lowest & (without_lowest - 1)) != 0) sides.near[near_count++] = static_cast<std::uint8_t>(f);
     }
-    if (in_front == all) return f;
     sides.outside[cutting] = in_front;
     sides.plane[cutting] = static_cast<std::uint8_t>(f);
     const int count = count_bits(in_front);
@@ -112,7 +117,7 @@ TALUS_HD TALUS_DEVICE_CALL inline int classify(const PartView& solid, const Part
     cutting += static_cast<int>(in_front != 0);
   }
   sides.plane_count = cutting;
-  sides.coplanar_count = coplanar;
+  sides.near_count = near_count;
   sides.fill_up();
   // The plane with most vertices in front comes first: it settles most faces at once.
   if (cutting > 1) {

@@ -19,39 +19,59 @@ namespace {
 using Interval = CGAL::Interval_nt_advanced;
 using Lazy = CGAL::Lazy_exact_nt<CGAL::Exact_rational>;
 
-bool has_equal_normal(const Vec3& a, const Vec3& b) { return dot(a, b) > 0.9 * norm(a) * norm(b); }
+/// Two planes with nearly equal normals, seen from a point. (Conversions to double lose far less than any
+/// tolerance.)
+struct NearPlanes {
+  double offset, sine;
 
-/// All corners of a body's face within `tolerance` of a plane. (Conversions to double lose far less than that.)
-template <class Number>
-bool lies_in(const Mesh<Number>& body, int face, const HalfSpace<Number>& plane, double tolerance) {
-  const double limit = tolerance * norm(rounded(plane.normal));
-  const std::vector<int>& loop = body.solid.faces[face].loop;
-  return std::all_of(loop.begin(), loop.end(), [&](int v) {
-    return std::abs(CGAL::to_double(depth_below(plane, body.solid.vertices[v]))) <= limit;
-  });
-}
+  template <class Number>
+  NearPlanes(const HalfSpace<Number>& a, const HalfSpace<Number>& b, const Vec3& from) {
+    const Vec3 normal_a = unit(a), normal_b = unit(b);
+    offset = std::abs(dot(normal_a, rounded(a.point) - from) - dot(normal_b, rounded(b.point) - from));
+    sine = norm(normal_a - normal_b);
+  }
+  /// How far apart they are at most within `reach`.
+  double largest_gap(double reach) const { return offset + reach * sine; }
+  bool cross_within(double reach) const { return offset <= reach * sine && sine < 1e-5; }
+
+ private:
+  template <class Number>
+  static Vec3 unit(const HalfSpace<Number>& plane) {
+    const Vec3 normal = rounded(plane.normal);
+    return (1 / norm(normal)) * normal;
+  }
+};
 
 /// What a facet of the overlap inherits from the face it comes from: the normal, and whether that face is flush with
 /// one of the other body.
 template <class Number>
 class BodyFaces {
  public:
-  BodyFaces(const Mesh<Number>& a, const Mesh<Number>& b, double tolerance)
-      : normals_a_(normals(a)), normals_b_(normals(b)), of_a_(normals_a_.size()), of_b_(normals_b_.size()) {
+  BodyFaces(const Mesh<Number>& a, const Mesh<Number>& b, const FlushRule& flush)
+      : normals_a_(normals(a)), normals_b_(normals(b)), of_a_(normals_a_.size(), -1), of_b_(normals_b_.size(), -1) {
+    constexpr double kClear = 1.1;
     for (std::size_t i = 0; i < normals_a_.size(); ++i)
       for (std::size_t j = 0; j < normals_b_.size(); ++j) {
-        const int face_a = static_cast<int>(i), face_b = static_cast<int>(j);
-        if (has_equal_normal(normals_a_[i], normals_b_[j]) &&
-            (lies_in(a, face_a, b.plane(face_b), tolerance) || lies_in(b, face_b, a.plane(face_a), tolerance)))
-          of_a_[i] = of_b_[j] = true;
+        const NearPlanes planes(a.plane(static_cast<int>(i)), b.plane(static_cast<int>(j)), flush.middle);
+        const double apart = planes.largest_gap(flush.reach);
+        if (apart <= flush.tolerance)
+          of_a_[i] = std::max(of_a_[i], apart), of_b_[j] = std::max(of_b_[j], apart);
+        else if (planes.cross_within(flush.reach))
+          near_seam_ += flush.reach / planes.sine;
+        may_be_flush_ |= apart <= kClear * flush.tolerance && kClear * apart >= flush.tolerance;
       }
   }
-  bool is_flush(const typename Solid<Number>::Face& face) const {
+  bool is_flush(const typename Solid<Number>::Face& face) const { return gap(face) >= 0; }
+  /// To the plane that the face is flush with; negative if there is none.
+  double gap(const typename Solid<Number>::Face& face) const {
     return face.is_of_a ? of_a_[face.source] : of_b_[face.source];
   }
   const Vec3& normal(const typename Solid<Number>::Face& face) const {
     return face.is_of_a ? normals_a_[face.source] : normals_b_[face.source];
   }
+  bool may_be_flush() const { return may_be_flush_; }
+  /// As Overlap::seam, of nearly flush planes that cross near the overlap, and might in it.
+  double near_seam() const { return near_seam_; }
 
  private:
   static std::vector<Vec3> normals(const Mesh<Number>& mesh) {
@@ -60,7 +80,9 @@ class BodyFaces {
     return all;
   }
   std::vector<Vec3> normals_a_, normals_b_;
-  std::vector<bool> of_a_, of_b_;
+  std::vector<double> of_a_, of_b_;  // gaps
+  bool may_be_flush_ = false;
+  double near_seam_ = 0;
 };
 
 /// V, S, M before rounding.
@@ -86,6 +108,7 @@ void measure(const Solid<Number>& solid, const BodyFaces<Number>& bodies, Overla
     bool is_of_a;
     Vec3 normal;
   };
+  overlap.seam = bodies.near_seam();
   std::map<std::pair<int, int>, Side> sides;
   std::vector<Vec3> vertices;  // about the first, so that the smallest overlaps keep their digits
   for (const Vector<Number>& vertex : solid.vertices) vertices.push_back(rounded(vertex - solid.vertices[0]));
@@ -96,7 +119,7 @@ void measure(const Solid<Number>& solid, const BodyFaces<Number>& bodies, Overla
     for (std::size_t c = 2; c < face.loop.size(); ++c)
       twice += cross(vertices[face.loop[c - 1]] - first, vertices[face.loop[c]] - first);
     overlap.surface += norm(twice) / 2;
-    if (is_flush) overlap.flush_area += 0.5 * twice;
+    if (is_flush) overlap.flush_area += 0.5 * twice, overlap.flush_volume += bodies.gap(face) * norm(twice) / 2;
     for (std::size_t c = 0; c < face.loop.size(); ++c) {
       const int u = face.loop[c], v = face.loop[(c + 1) % face.loop.size()];
       const Vec3 normal = bodies.normal(face);
@@ -150,7 +173,7 @@ bool is_narrow(const Integrals<Interval>& sum, const Overlap& overlap, double si
 }
 
 template <class Number>
-std::optional<Overlap> overlap_in(const Body& a, const Body& b, double flush_tolerance) {
+std::optional<Overlap> overlap_in(const Body& a, const Body& b, const FlushRule& flush) {
   const Mesh<Number> mesh_a(placed<Number>(a, a.pose.position, b.pose.orientation, true));
   const Mesh<Number> mesh_b(placed<Number>(b, a.pose.position, a.pose.orientation, false));
   Solid<Number> common = mesh_b.solid;
@@ -159,8 +182,9 @@ std::optional<Overlap> overlap_in(const Body& a, const Body& b, double flush_tol
     clip(common, mesh_a, mesh_b, face.source);
     if (common.faces.empty()) return Overlap{};
   }
-  const BodyFaces<Number> bodies(mesh_a, mesh_b, flush_tolerance);
+  const BodyFaces<Number> bodies(mesh_a, mesh_b, flush);
   Overlap result;
+  result.may_be_flush = bodies.may_be_flush();
   Integrals<Number> sum = integrate(common, bodies);
   sum.scale(squared_norm<Number>(a.pose.orientation) * squared_norm<Number>(b.pose.orientation));
   constexpr bool kIsExact = std::is_same_v<Number, Lazy>;
@@ -177,18 +201,18 @@ std::optional<Overlap> overlap_in(const Body& a, const Body& b, double flush_tol
 
 }  // namespace
 
-Overlap overlap_unfiltered(const Body& a, const Body& b, double flush_tolerance) {
-  return *overlap_in<Lazy>(a, b, flush_tolerance);
+Overlap overlap_unfiltered(const Body& a, const Body& b, const FlushRule& flush) {
+  return *overlap_in<Lazy>(a, b, flush);
 }
 
-Overlap overlap(const Body& a, const Body& b, double flush_tolerance) {
+Overlap overlap(const Body& a, const Body& b, const FlushRule& flush) {
   try {
     const Interval::Protector upward_rounding;
-    if (const auto result = overlap_in<Interval>(a, b, flush_tolerance)) return *result;
+    if (const auto result = overlap_in<Interval>(a, b, flush)) return *result;
   } catch (const CGAL::Uncertain_conversion_exception&) {
     // A sign is open: rationals decide.
   }
-  return overlap_unfiltered(a, b, flush_tolerance);
+  return overlap_unfiltered(a, b, flush);
 }
 
 }  // namespace exact

@@ -28,9 +28,11 @@ struct Overlap {
   dem_gpu::Vec3 area;         // S, vector area of a's surface inside b [m2]
   dem_gpu::Vec3 area_moment;  // M [m3]
   dem_gpu::Vec3 flush_area;   // vector area of the facets that lie in a face of each body [m2]
+  double flush_volume = 0;    // at most, between these facets' two planes [m3]
+  bool may_be_flush = false;  // rounding may tell otherwise of some faces whether they are flush
   double surface = 0;         // area of the overlap's whole surface [m2]
   /// Sum over the edges where a face of a meets one of b of length / sin(angle between the faces): how fast these edges
-  /// move when a body moves [m].
+  /// move when a body moves [m]. Of nearly flush faces that cross near the overlap as well.
   double seam = 0;
   bool needed_exact = false;  // intervals of doubles were too wide
 
@@ -42,11 +44,15 @@ struct Overlap {
   bool is_well_conditioned(double size) const { return volume > 0 && volume_scale(size) <= volume; }
 };
 
-/// `flush_tolerance` [m]: faces that lie within it of a plane of the other body, with equal normals, are flush.
-/// Which body owns such a facet is a convention, so the engine's tolerance is part of the definition of S and M.
-Overlap overlap(const Body& a, const Body& b, double flush_tolerance);
+/// Faces with equal normals whose planes are nowhere further apart than `tolerance` within `reach` of `middle` are
+/// flush [m]. Which body owns such a facet is a convention, so the engine's rule is part of the definition of S and M.
+struct FlushRule {
+  Vec3 middle;  // from a's position, world axes
+  double reach = 0, tolerance = 0;
+};
+Overlap overlap(const Body& a, const Body& b, const FlushRule& flush);
 
 /// The same without the interval filter: for checking the filter.
-Overlap overlap_unfiltered(const Body& a, const Body& b, double flush_tolerance);
+Overlap overlap_unfiltered(const Body& a, const Body& b, const FlushRule& flush);
 
 }  // namespace exact

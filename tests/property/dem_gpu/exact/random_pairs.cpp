@@ -190,6 +190,60 @@ Pair coplanar(Random& random) {
   return pair;
 }
 
+double noise(Random& random, double most) { return log_uniform(random, 1e-16, most); }
+
+/// Boxes and plates of which some faces lie in one plane, on the same side or one on top of the other.
+Pair flush_boxes(Random& random) {
+  const auto box = [&] {
+    Vec3 edges{uniform(random, 0.3, 1.5), uniform(random, 0.3, 1.5), uniform(random, 0.3, 1.5)};
+    if (pick(random, 2)) edges.z *= log_uniform(random, 0.005, 1);
+    return dem_gpu::box_part(edges);
+  };
+  const ConvexPart a = box();
+  // Some are as large as one another along an axis or two, as a plate cut from a block.
+  const Vec3 half = corner(a, 7), other = corner(box(), 7);
+  const auto own_or = [&](double own, double another) { return pick(random, 2) ? own : another; };
+  const Vec3 b{own_or(half.x, other.x), own_or(half.y, other.y), own_or(half.z, other.z)};
+  Pair pair{a, dem_gpu::box_part(2 * b), {anywhere(random), {}}};
+  if (pick(random, 3) == 0) pair.poses.a.orientation = {};
+  pair.poses.b.orientation = pair.poses.a.orientation;
+  const auto offset = [&](double half_a, double half_b) {
+    const double sign = pick(random, 2) ? 1 : -1, shift = noise(random, 1e-9) * (pick(random, 3) - 1);
+    switch (pick(random, 5)) {
+      case 0:
+      case 1:
+        return sign * (half_a - half_b) + shift;
+      case 2:
+        return sign * (half_a + half_b) + shift;
+      default:
+        return uniform(random, -1, 1) * (half_a + half_b);
+    }
+  };
+  join(pair.poses, {offset(half.x, b.x), offset(half.y, b.y), offset(half.z, b.z)}, {});
+  return pair;
+}
+
+/// A body in the corner of a larger one of the same shape, or as large: the faces about that corner are flush.
+Pair flush_at_a_corner(Random& random) {
+  Pair pair{random_body(random), {}, {anywhere(random), {}}};
+  pair.part_b = pair.part_a;
+  pair.poses.b = pair.poses.a;
+  if (pick(random, 3) != 0) pair.poses.b.scale = uniform(random, 0.1, 1);
+  const Vec3 common = any_corner(random, pair.part_a);
+  join(pair.poses, common, common);
+  pair.poses.b.position += noise(random, 1e-9) * random_direction(random);
+  return pair;
+}
+
+/// Faces in one plane but for noise: in tilt and offset from rounding to far above it, where what counts as flush must
+/// not change the overlap.
+Pair nearly_flush(Random& random) {
+  Pair pair = pick(random, 3) ? flush_boxes(random) : flush_at_a_corner(random);
+  pair.poses.b.orientation = pair.poses.b.orientation * axis_angle(random_direction(random), noise(random, 1e-6));
+  if (pick(random, 2)) std::swap(pair.part_a, pair.part_b), std::swap(pair.poses.a, pair.poses.b);
+  return pair;
+}
+
 Pair far_away(Random& random) {
   Pair pair = pick(random, 2) ? nearby(random, random_body(random), random_body(random)) : thin_pair(random);
   const Vec3 shift = 1e6 * random_direction(random);
@@ -235,6 +289,7 @@ const std::vector<PairClass>& pair_classes() {
       {"coplanar faces", 6, coplanar},
       {"a million sizes from the origin", 5, far_away},
       {"tiny, huge, grain on boulder", 5, scaled},
+      {"flush but for noise", 12, nearly_flush},
   };
   return classes;
 }

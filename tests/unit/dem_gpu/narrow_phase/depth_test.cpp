@@ -195,6 +195,35 @@ TEST(DepthPotential, ReciprocalUnderExchange) {
   }
 }
 
+TEST(DepthPotential, AFaceInACutCountsOnceHoweverItLies) {
+  // A block of two or four parts, and a bar of one or two parts that a cut of the block is flush with, or whose own cut
+  // is flush with the block's: but for tilts and offsets from rounding to far above it. The parts on both sides of a
+  // cut must tell the same of the faces in it.
+  const auto block = [](std::array<int, 3> counts) { return cut_box({1, 1, 1}, counts); };
+  const auto bar = [](int parts) { return cut_box({0.5, 0.25, 1}, {parts, 1, 1}); };
+  const PairIntegrals whole(block({1, 1, 1}), bar(1));
+  const PairIntegrals cut[] = {{block({2, 1, 1}), bar(1)},
+                               {block({2, 2, 1}), bar(1)},
+                               {block({2, 1, 1}), bar(2)},
+                               {block({2, 2, 1}), bar(2)},
+                               {block({1, 1, 1}), bar(2)}};
+  std::mt19937 random(31);
+  for (const Real x : {0.25, -0.25, 0.0})
+    for (Real tilt = 1e-16; tilt < 2e-6; tilt *= std::sqrt(10.0))
+      for (const Real offset : {0.0, 1e-15, 1e-13, 1e-12, 1e-11, 1e-9}) {
+        const Vec3 turn = tilt / 2 * random_direction(random);
+        const Placed b{Vec3{x, -0.125, 0.9} + offset * random_direction(random),
+                       dem_gpu::normalized(Quaternion{1, turn.x, turn.y, turn.z})};
+        const auto expected = whole.of<DepthIntegrals>({}, b);
+        for (const PairIntegrals& pair : cut) {
+          const auto found = pair.of<DepthIntegrals>({}, b);
+          EXPECT_LT(norm(found.force - expected.force), 1e-9 + kSingle.integral) << x << ", " << tilt << ", " << offset;
+          EXPECT_LT(norm(found.moment - expected.moment), 1e-9 + kSingle.integral)
+              << x << ", " << tilt << ", " << offset;
+        }
+      }
+}
+
 TEST(DepthPotential, RoundBodyOnABlock) {
   // Where both fields grow along nearly the same direction, F = k (V + V) n. A polyhedron of 60 corners near the unit
   // sphere, pressed into a block: the facets' normals lean off the vertical by up to acos(1 - depth).
