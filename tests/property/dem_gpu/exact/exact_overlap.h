@@ -47,7 +47,7 @@ struct Overlap {
 /// Faces with equal normals whose planes are nowhere further apart than `tolerance` within `reach` of `middle` are
 /// flush [m]. Which body owns such a facet is a convention, so the engine's rule is part of the definition of S and M.
 struct FlushRule {
-  Vec3 middle;  // from a's position, world axes
+  dem_gpu::Vec3 middle;  // from a's position, world axes
   double reach = 0, tolerance = 0;
 };
 Overlap overlap(const Body& a, const Body& b, const FlushRule& flush);
