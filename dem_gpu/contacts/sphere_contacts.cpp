@@ -2,36 +2,10 @@
 #include "dem_gpu/contacts/contact_passes.h"
 #include "dem_gpu/contacts/sphere_geometry.h"
 #include "dem_gpu/contacts/sphere_pairs.h"
-#include "dem_gpu/contacts/welded_surface.h"
-#include "dem_gpu/core/lanes.h"
+#include "dem_gpu/contacts/touching_pairs.h"
 
 namespace dem_gpu {
 namespace {
-
-/// Candidate pairs of a range that touch, in their order; room for one more block of pairs to look at.
-struct TouchingPairs {
-  int contact[kRangeLength + kRealLanes], a[kRangeLength + kRealLanes], b[kRangeLength + kRealLanes];
-  int count = 0;
-
-  /// The pairs from `first` on.
-  TALUS_HD PairRows rows(int first) const {
-    return {RowLanes::load(contact + first), RowLanes::load(a + first), RowLanes::load(b + first)};
-  }
-  TALUS_HD void append(const PairRows& rows, unsigned which) {
-    append_lanes(rows.contact, which, contact + count);
-    append_lanes(rows.a, which, a + count);
-    append_lanes(rows.b, which, b + count);
-    count += count_bits(which);
-  }
-  /// Fills the last block with its last pair, which changes nothing.
-  TALUS_HD void fill_last_block() {
-    for (int i = count; count > 0 && i % kRealLanes != 0; ++i) {
-      contact[i] = contact[count - 1];
-      a[i] = a[count - 1];
-      b[i] = b[count - 1];
-    }
-  }
-};
 
 /// Bit i: the spheres of pair i touch.
 TALUS_HD TALUS_ALL_INLINED inline unsigned touching_bits(const SphereRow* spheres, const PairRows& rows) {
@@ -100,17 +74,11 @@ struct ComputeSpherePairs {
 
   TALUS_HD void record(const PairRows& rows, int i, const SphereTouch& touch, const SphereResponse& response) const {
     const int a = rows.a[i], b = rows.b[i];
-    ElasticContact elastic;
-    elastic.normal = lane(touch.normal, i);
-    elastic.force = -lane(response.push, i) * elastic.normal;
-    elastic.point = scene.bodies.position[a] + lane(touch.lever_a, i) * elastic.normal;
-    elastic.energy = lane(response.energy, i);
-    ContactForces forces;
     const PairProperties& pair = scene.pair(scene.bodies.material[a], scene.bodies.material[b]);
+    ElasticContact elastic;
+    ContactForces forces;
+    lane_of<Friction>(i, touch, response, scene.bodies.position[a], elastic, forces);
     forces.normal.is_orbit = scene.step.length > 0 && pair.sphere_damping != 0;
-    if constexpr (Friction::kEnabled) forces.friction.force = lane(response.friction, i);
-    if constexpr (Friction::kEnabled) forces.friction.energy = lane(response.tangential_energy, i);
-    if constexpr (Friction::kHasCouple) forces.friction.couple = lane(response.couple, i);
     record_contact<Damping, Friction>(scene.contacts, rows.contact[i], elastic, forces, body_side(scene.bodies, a),
                                       body_side(scene.bodies, b), scene.step.length);
     scene.contacts.point[rows.contact[i]] = elastic.point;
@@ -138,34 +106,6 @@ class SpherePairsPass : public Pass {
   DeviceVector<SphereRow> spheres_;
 };
 
-template <class Law>
-struct SphereWallGeometry {
-  using Partner = WallPartner;
-  using Damping = OrbitDamping<Law>;
-  Law law;
-
-  template <class Patch>
-  TALUS_HD bool find(const ContactScene& scene, int /*c*/, int a, int b, ElasticContact& elastic, Patch& patch) const {
-    const WallRecord& wall = scene.walls[b];
-    const Real radius = scene.bodies.bounding_radius[a];
-    const SurfaceDistance surface = surface_distance(wall, scene.bodies.position[a]);
-    if (surface.rim >= 0 && is_held_beside(scene, b, scene.bodies.position[a], surface)) return false;
-    if (-surface.depth >= radius) return false;
-    if (wall.weld_count > 0 && holder_of_contact(scene, b, scene.bodies.position[a], radius) >= 0) return false;
-    return sphere_contact(law, scene.bodies.position[a], radius, {-surface.depth, surface.into_wall, radius},
-                          scene.pair(scene.bodies.material[a], wall.material), elastic, patch);
-  }
-
-  /// Where two walls share a rim, the nearest point on it counts once, and not at all if the other wall comes nearer.
-  TALUS_HD static bool is_held_beside(const ContactScene& scene, int wall, const Vec3& x,
-                                      const SurfaceDistance& surface) {
-    const int other = scene.walls[wall].rim_neighbour[surface.rim];
-    if (other < 0 || !scene.walls[other].is_present) return false;
-    const SurfaceDistance beside = surface_distance(scene.walls[other], x);
-    return beside.rim < 0 || other < wall;
-  }
-};
-
 }  // namespace
 
 std::unique_ptr<Pass> make_sphere_contacts_pass(const Scene& scene) {
@@ -177,11 +117,6 @@ std::unique_ptr<Pass> make_sphere_contacts_pass(const Scene& scene) {
     return std::visit(make_policies, sphere_friction<Law>(scene), record_policy(scene));
   };
   return std::visit(make, sphere_law(scene));
-}
-
-std::unique_ptr<Pass> make_sphere_wall_contacts_pass(const Scene& scene) {
-  return make_sphere_pass("sphere_wall_contacts", ContactKind::sphere_wall, scene,
-                          [](const auto& law) { return SphereWallGeometry<std::decay_t<decltype(law)>>{law}; });
 }
 
 }  // namespace dem_gpu

@@ -8,8 +8,9 @@
 
 namespace dem_gpu {
 
-/// Touching pairs of spheres side by side. The normal is central, so that elastic forces turn nothing, an impulse along
-/// it meets 1 / (1/m_a + 1/m_b), and the torques of friction are the two levers times normal x force.
+/// Touching pairs of spheres side by side, or of spheres and walls. The normal goes through the centres of spheres, so
+/// that elastic forces turn nothing, an impulse along it meets 1 / (1/m_a + 1/m_b), and the torques of friction are the
+/// two levers times normal x force.
 struct PairRows {
   RowLanes contact, a, b;
 };
@@ -20,12 +21,14 @@ struct PairLanes {
       rolling_friction, adhesion;
 };
 
-TALUS_HD inline PairLanes pair_lanes(const ContactScene& scene, const PairRows& rows) {
+/// `material_b(i)`: of the other side in lane i.
+template <class MaterialB>
+TALUS_HD PairLanes pair_lanes(const ContactScene& scene, const PairRows& rows, const MaterialB& material_b) {
   const auto property = [&](Real PairProperties::*of) {
     RealLanes lanes = RealLanes{} + scene.pairs[0].*of;
     if (scene.material_count > 1)
       for (int i = 0; i < kRealLanes; ++i)
-        lane(lanes, i) = scene.pair(scene.bodies.material[rows.a[i]], scene.bodies.material[rows.b[i]]).*of;
+        lane(lanes, i) = scene.pair(scene.bodies.material[rows.a[i]], material_b(i)).*of;
     return lanes;
   };
   return {property(&PairProperties::friction_coefficient),
@@ -37,14 +40,14 @@ TALUS_HD inline PairLanes pair_lanes(const ContactScene& scene, const PairRows& 
           property(&PairProperties::adhesion)};
 }
 
-/// Where and how deep the spheres touch.
+/// Where and how deep a sphere touches another, or a wall.
 struct SphereTouch {
   Vector3<RealLanes> normal;   // from a to b
-  RealLanes curvature;         // 1 / distance of the centres [1/m]
+  RealLanes curvature;         // 1 / distance of the centres, 0 at a wall [1/m]
   RealLanes depth;             // [m]
   RealLanes depth_before;      // at the end of the last step [m]
   RealLanes inverse_depth;     // [1/m]
-  RealLanes lever_a, lever_b;  // from the centres to the contact point, along the normal [m]
+  RealLanes lever_a, lever_b;  // from the centres to the contact point, along the normal; 0 of a wall [m]
   RealLanes effective_radius;  // [m]
 
   TALUS_HD static SphereTouch of(const SphereLanes& a, const SphereLanes& b, const RealLanes& depth_before) {
@@ -61,6 +64,19 @@ struct SphereTouch {
     touch.lever_a = a.radius() - Real(0.5) * touch.depth;
     touch.lever_b = b.radius() - Real(0.5) * touch.depth;
     touch.effective_radius = a.radius() * b.radius() / (a.radius() + b.radius());
+    return touch;
+  }
+  /// At a wall that far from the centre.
+  TALUS_HD static SphereTouch of_wall(const SphereLanes& a, const Vector3<RealLanes>& into_wall,
+                                      const RealLanes& distance, const RealLanes& depth_before) {
+    SphereTouch touch;
+    touch.curvature = touch.lever_b = RealLanes{};
+    touch.normal = into_wall;
+    touch.depth = a.radius() - distance;
+    touch.depth_before = depth_before;
+    touch.inverse_depth = Real(1) / touch.depth;
+    touch.lever_a = distance + Real(0.5) * touch.depth;
+    touch.effective_radius = a.radius();
     return touch;
   }
 };
@@ -93,6 +109,7 @@ struct SphereResponse {
   Vector3<RealLanes> friction, couple;  // on a [N], [N m]
   RealLanes tangential_energy;          // in the springs [J]
   Vector3<RealLanes> sliding, rolling;  // lengths of the springs [m]
+  RealLanes contact_share;              // of the body that has more contacts, BodyColumns [-]
   RealLanes diameter;                   // of the smaller sphere [m]
 };
 
@@ -152,8 +169,8 @@ TALUS_HD void find_push(const ContactScene& scene, const LastContact& last, cons
 
 template <class Law, class Friction>
 TALUS_HD void find_friction(const ContactScene& scene, const PairRows& rows, const LastContact& last,
-                            const RealLanes& contact_share, const SphereTouch& touch, const PairLanes& pair,
-                            const SphereVelocities& mean, const SphereVelocities& predicted, SphereResponse& response) {
+                            const SphereTouch& touch, const PairLanes& pair, const SphereVelocities& mean,
+                            const SphereVelocities& predicted, SphereResponse& response) {
   const Real step = scene.step.length;
   // What presses the surfaces together. The mean force over a step may pull, to make up for the step before.
   const RealLanes load = larger(RealLanes{}, response.push + response.adhesion);
@@ -165,7 +182,7 @@ TALUS_HD void find_friction(const ContactScene& scene, const PairRows& rows, con
   const SphereSpringForce<RealLanes> sliding =
       spring_force<Law>(response.sliding, slip, stiffness,
                         tangential_dashpot(Real(2) * pair.tangential_damping * response.rate, response.effective_mass,
-                                           contact_share, step),
+                                           response.contact_share, step),
                         step);
   response.friction = sliding.force;
   response.tangential_energy = sliding.energy;
@@ -183,21 +200,11 @@ TALUS_HD void find_friction(const ContactScene& scene, const PairRows& rows, con
   }
 }
 
-/// Not part of a kernel, nor is write_spheres, so that motion is the same with a work record and without.
+/// Forces of a contact whose `response` has the two sides' inverse mass, diameter and contact share.
 template <class Law, class Friction>
-TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void respond_to_touch(const Law& law, const ContactScene& scene,
-                                                                const SphereRow* spheres, const PairRows& rows,
-                                                                SphereTouch& touch, SphereResponse& response) {
-  const SphereLanes a = SphereLanes::of(spheres, rows.a), b = SphereLanes::of(spheres, rows.b);
-  const LastContact last = LastContact::of(scene, rows);
-  touch = SphereTouch::of(a, b, last.force_depth.number);
-  const PairLanes pair = pair_lanes(scene, rows);
-  const SphereVelocities mean =
-      SphereVelocities::of(a.mean_velocity() - b.mean_velocity(), a.mean_spin(), b.mean_spin(), touch);
-  const SphereVelocities predicted = SphereVelocities::of(a.predicted_velocity() - b.predicted_velocity(),
-                                                          a.predicted_spin.vector, b.predicted_spin.vector, touch);
-  response.diameter = smaller(a.diameter(), b.diameter());
-  response.inverse_mass = a.inverse_mass() + b.inverse_mass();
+TALUS_HD void find_forces(const Law& law, const ContactScene& scene, const PairRows& rows, const LastContact& last,
+                          const SphereTouch& touch, const PairLanes& pair, const SphereVelocities& mean,
+                          const SphereVelocities& predicted, SphereResponse& response) {
   response.effective_mass = Real(1) / response.inverse_mass;
   response.stiffness = law.tangent_stiffness(touch.depth, touch.effective_radius, pair.effective_modulus);
   response.rate = square_root(response.stiffness * response.inverse_mass);
@@ -214,8 +221,26 @@ TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void respond_to_touch(const Law& law, 
   else  // forces of a start, before any step: the elastic one alone
     response.owed = last.spring_owed.number;
   if constexpr (Friction::kEnabled)
-    find_friction<Law, Friction>(scene, rows, last, smaller(a.contact_share(), b.contact_share()), touch, pair, mean,
-                                 predicted, response);
+    find_friction<Law, Friction>(scene, rows, last, touch, pair, mean, predicted, response);
+}
+
+/// Not part of a kernel, nor is write_spheres, so that motion is the same with a work record and without.
+template <class Law, class Friction>
+TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void respond_to_touch(const Law& law, const ContactScene& scene,
+                                                                const SphereRow* spheres, const PairRows& rows,
+                                                                SphereTouch& touch, SphereResponse& response) {
+  const SphereLanes a = SphereLanes::of(spheres, rows.a), b = SphereLanes::of(spheres, rows.b);
+  const LastContact last = LastContact::of(scene, rows);
+  touch = SphereTouch::of(a, b, last.force_depth.number);
+  const SphereVelocities mean =
+      SphereVelocities::of(a.mean_velocity() - b.mean_velocity(), a.mean_spin(), b.mean_spin(), touch);
+  const SphereVelocities predicted = SphereVelocities::of(a.predicted_velocity() - b.predicted_velocity(),
+                                                          a.predicted_spin.vector, b.predicted_spin.vector, touch);
+  response.diameter = smaller(a.diameter(), b.diameter());
+  response.contact_share = smaller(a.contact_share(), b.contact_share());
+  response.inverse_mass = a.inverse_mass() + b.inverse_mass();
+  const PairLanes pair = pair_lanes(scene, rows, [&](int i) { return scene.bodies.material[rows.b[i]]; });
+  find_forces<Law, Friction>(law, scene, rows, last, touch, pair, mean, predicted, response);
 }
 
 /// The worst of a range of contacts, kept by its first: what is read is the worst of all.
@@ -236,6 +261,19 @@ struct PeakLanes {
     }
   }
 };
+
+/// Lane i of a contact as the work record sees it.
+template <class Friction>
+TALUS_HD void lane_of(int i, const SphereTouch& touch, const SphereResponse& response, const Vec3& centre_a,
+                      ElasticContact& elastic, ContactForces& forces) {
+  elastic.normal = lane(touch.normal, i);
+  elastic.force = -lane(response.push, i) * elastic.normal;
+  elastic.point = centre_a + lane(touch.lever_a, i) * elastic.normal;
+  elastic.energy = lane(response.energy, i);
+  if constexpr (Friction::kEnabled) forces.friction.force = lane(response.friction, i);
+  if constexpr (Friction::kEnabled) forces.friction.energy = lane(response.tangential_energy, i);
+  if constexpr (Friction::kHasCouple) forces.friction.couple = lane(response.couple, i);
+}
 
 template <class Friction>
 TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void write_spheres(const ContactScene& scene, const PairRows& rows,

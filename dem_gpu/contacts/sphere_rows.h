@@ -18,6 +18,19 @@ struct SphereRow {
   Real diameter = 0;
   Vec3 predicted_angular_velocity;
   Real none = 0;
+
+  TALUS_HD static SphereRow of(const BodyView& bodies, int i) {
+    return {bodies.position[i],
+            bodies.bounding_radius[i],
+            bodies.mean_velocity[i],
+            bodies.inverse_mass[i],
+            bodies.mean_angular_velocity[i],
+            bodies.contact_share[i],
+            bodies.predicted_velocity[i],
+            bodies.diameter[i],
+            bodies.predicted_angular_velocity[i],
+            0};
+  }
 };
 
 /// Copies the columns of body i into its row.
@@ -25,18 +38,7 @@ struct FillSphereRow {
   BodyView bodies;
   SphereRow* rows;
 
-  TALUS_HD void operator()(int i) const {
-    rows[i] = {bodies.position[i],
-               bodies.bounding_radius[i],
-               bodies.mean_velocity[i],
-               bodies.inverse_mass[i],
-               bodies.mean_angular_velocity[i],
-               bodies.contact_share[i],
-               bodies.predicted_velocity[i],
-               bodies.diameter[i],
-               bodies.predicted_angular_velocity[i],
-               0};
-  }
+  TALUS_HD void operator()(int i) const { rows[i] = SphereRow::of(bodies, i); }
 };
 
 /// Rows of as many spheres as there are lanes.
