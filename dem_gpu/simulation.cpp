@@ -58,6 +58,7 @@ void Simulation::advance(std::int64_t steps) {
   for (std::int64_t i = 0; i < steps; ++i)
     for (const auto& pass : engine_->passes) pass->run(engine_->model, engine_->state);
   engine_->state.accounts.wall_load_time += static_cast<double>(steps) * engine_->model.time_step;
+  wait_for_launches();
   engine_->refuse_truncated_polygons();
 }
 

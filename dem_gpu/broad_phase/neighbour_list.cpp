@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dem_gpu/broad_phase/neighbour_list.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -183,10 +184,11 @@ void build_neighbour_list(const Model& model, State& state) {
   if (model.features.has_meshes) list_facets(model, state, next);
   carry_history(model, state, is_periodic ? &change : nullptr, next);
   state.contacts = std::move(next);
-  for (int kind = 0; kind < kContactKinds; ++kind) {
-    state.range[kind].first = count_below(state.contacts.key, contact_key(static_cast<ContactKind>(kind), 0, 0));
-    state.range[kind].last = count_below(state.contacts.key, contact_key(static_cast<ContactKind>(kind + 1), 0, 0));
-  }
+  std::array<ContactKey, kContactKinds + 1> bounds;
+  for (int kind = 0; kind <= kContactKinds; ++kind)
+    bounds[static_cast<std::size_t>(kind)] = contact_key(static_cast<ContactKind>(kind), 0, 0);
+  const std::vector<int> below = counts_below(state.contacts.key, bounds);
+  for (std::size_t kind = 0; kind < kContactKinds; ++kind) state.range[kind] = {below[kind], below[kind + 1]};
   list_incidence(model, state);
   parallel_for(0, static_cast<int>(model.bodies.shape.size()), MarkListed{bodies});
   state.listed_time = state.time(model);

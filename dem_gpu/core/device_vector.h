@@ -7,7 +7,18 @@
 #include <span>
 #include <vector>
 
+#ifdef TALUS_BACKEND_CUDA
+#include "dem_gpu/core/device_stream.h"
+#endif
+
 namespace dem_gpu {
+
+/// Waits for all that has been launched; throws std::runtime_error where some of it failed.
+inline void wait_for_launches() {
+#ifdef TALUS_BACKEND_CUDA
+  wait_for_device();
+#endif
+}
 
 /// A column: memory of the device the engine runs on (host memory with the CPU back ends).
 template <class T>
@@ -24,6 +35,7 @@ const T* pointer(const DeviceVector<T>& column) {
 
 template <class T>
 std::vector<T> to_host(const DeviceVector<T>& column) {
+  wait_for_launches();
   std::vector<T> values(column.size());
   thrust::copy(column.begin(), column.end(), values.begin());
   return values;

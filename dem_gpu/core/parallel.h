@@ -2,8 +2,9 @@
 #pragma once
 
 // The only place that names an execution policy. Every function gives the same result whatever the number of threads.
+// On the GPU none waits for what it launches, but for those that return a number; a fault of a kernel shows where the
+// host next reads or waits (core/device_stream.h).
 
-#include <thrust/binary_search.h>
 #include <thrust/execution_policy.h>
 #include <thrust/extrema.h>
 #include <thrust/fill.h>
@@ -12,7 +13,10 @@
 #include <thrust/scan.h>
 #include <thrust/sort.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <vector>
 
 #include "dem_gpu/core/device_vector.h"
 #include "dem_gpu/core/host_device.h"
@@ -21,7 +25,9 @@ namespace dem_gpu {
 
 #ifdef TALUS_BACKEND_CUDA
 inline constexpr int kFewItems = 0;
+inline auto device_policy() { return thrust::cuda::par_nosync(temporary_storage()).on(device_stream()); }
 #else
+inline auto device_policy() { return thrust::device; }
 /// Up to this many items are worked off by the calling thread: waking the others takes longer, by far where they share
 /// their cores with other processes.
 inline constexpr int kFewItems = 32;
@@ -36,22 +42,43 @@ decltype(auto) with_policy_for(std::size_t items, const Call& call) {
   if constexpr (kFewItems > 0) {
     if (items <= kFewItems) return call(thrust::seq);
   }
-  return call(thrust::device);
+  return call(device_policy());
 }
+
+#if defined(TALUS_BACKEND_CUDA)
+
+/// Threads of a block: a warp for each of a multiprocessor's four schedulers. More would put a small scene, whose
+/// kernels are bound by latency, on fewer multiprocessors; any kernel has registers enough.
+inline constexpr int kBlockThreads = 128;
+
+template <class Kernel>
+__global__ void __launch_bounds__(kBlockThreads) run_kernel(const Kernel kernel, int first, int last) {
+  const int i = first + static_cast<int>(blockIdx.x * kBlockThreads + threadIdx.x);
+  if (i < last) kernel(i);
+}
+
+/// kernel(i) for i in [first, last), in any order. A kernel of our own, since thrust::for_each gives a block 512 items.
+template <class Kernel>
+void parallel_for(int first, int last, const Kernel& kernel) {
+  if (first >= last) return;
+  const unsigned blocks = static_cast<unsigned>(last - first - 1) / kBlockThreads + 1;
+  run_kernel<<<blocks, kBlockThreads, 0, device_stream()>>>(kernel, first, last);
+  check_device(cudaGetLastError(), "launching a kernel");
+}
+
+#else
 
 /// kernel(i) for i in [first, last), in any order.
 template <class Kernel>
 void parallel_for(int first, int last, const Kernel& kernel) {
-  if constexpr (kFewItems > 0) {
-    if (last - first <= kFewItems) {
-      for (int i = first; i < last; ++i) kernel(i);
-      return;
-    }
+  if (last - first <= kFewItems) {
+    for (int i = first; i < last; ++i) kernel(i);
+    return;
   }
-  if (first < last)
-    thrust::for_each(thrust::device, thrust::counting_iterator<int>(first), thrust::counting_iterator<int>(last),
-                     kernel);
+  thrust::for_each(thrust::device, thrust::counting_iterator<int>(first), thrust::counting_iterator<int>(last), kernel);
 }
+
+#endif
 
 #if defined(TALUS_BACKEND_CUDA)
 inline constexpr int kRangeLength = 1;
@@ -78,11 +105,16 @@ template <class Kernel>
 void parallel_for_ranges(int first, int last, const Kernel& kernel) {
   const int ranges = range_count(last - first);
   const RangeKernel<Kernel> of_range{kernel, first, last};
-  if (ranges <= kFewRanges)
-    for (int i = 0; i < ranges; ++i) of_range(i);
-  else
+  if constexpr (kFewRanges > 0) {
+    if (ranges <= kFewRanges) {
+      for (int i = 0; i < ranges; ++i) of_range(i);
+      return;
+    }
     thrust::for_each(thrust::device, thrust::counting_iterator<int>(0), thrust::counting_iterator<int>(ranges),
                      of_range);
+  } else {
+    parallel_for(0, ranges, of_range);
+  }
 }
 
 template <class T>
@@ -122,13 +154,6 @@ T min_of(const DeviceVector<T>& column, T empty_value) {
                          [&](auto policy) -> T { return *thrust::min_element(policy, column.begin(), column.end()); });
 }
 
-/// Number of entries of an ascending column below `value`.
-template <class T>
-int count_below(const DeviceVector<T>& ascending, const T& value) {
-  return static_cast<int>(thrust::lower_bound(thrust::device, ascending.begin(), ascending.end(), value) -
-                          ascending.begin());
-}
-
 /// First index in the ascending array whose entry is not less than `value`.
 template <class T>
 TALUS_HD inline int lower_bound(const T* ascending, int count, const T& value) {
@@ -143,6 +168,27 @@ TALUS_HD inline int lower_bound(const T* ascending, int count, const T& value) {
     }
   }
   return first;
+}
+
+template <class T, int kValues>
+struct CountBelow {
+  const T* ascending;
+  int entries;
+  T values[kValues];
+  int* counts;
+
+  TALUS_HD void operator()(int i) const { counts[i] = lower_bound(ascending, entries, values[i]); }
+};
+
+/// Number of entries of an ascending column below each of the values.
+template <class T, std::size_t kValues>
+std::vector<int> counts_below(const DeviceVector<T>& ascending, const std::array<T, kValues>& values) {
+  constexpr int count = static_cast<int>(kValues);
+  DeviceVector<int> counts(kValues);
+  CountBelow<T, count> kernel{pointer(ascending), static_cast<int>(ascending.size()), {}, pointer(counts)};
+  std::copy(values.begin(), values.end(), kernel.values);
+  parallel_for(0, count, kernel);
+  return to_host(counts);
 }
 
 }  // namespace dem_gpu
