@@ -108,10 +108,10 @@ class SpherePairsPass : public Pass {
   explicit SpherePairsPass(const Law& law) : law_(law) {}
 
   std::string name() const override { return "sphere_contacts"; }
-  void run(const Model& model, State& state) override {
+  void launch(const Model& model, State& state, const Gate& gate) override {
     const ContactRange range = state.range[static_cast<int>(ContactKind::sphere_sphere)];
     parallel_for_ranges(range.first, range.last,
-                        ComputeSpherePairs<Law, Friction, Record>{contact_scene(model, state), law_});
+                        ComputeSpherePairs<Law, Friction, Record>{contact_scene(model, state), law_}, gate);
   }
 
  private:

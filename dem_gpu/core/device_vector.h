@@ -51,4 +51,21 @@ void assign(DeviceVector<T>& column, const std::vector<T>& values) {
   assign(column, std::span<const T>(values));
 }
 
+/// The same, of values that launches of before may still read: the host does not wait for them. `values` may change
+/// once this returns.
+template <class T>
+void assign_launched(DeviceVector<T>& column, const std::vector<T>& values) {
+#ifdef TALUS_BACKEND_CUDA
+  if (column.size() == values.size()) {
+    // The driver copies up to 64 KiB of ordinary memory aside and returns; of more it waits for what was launched.
+    if (!values.empty())
+      check_device(cudaMemcpyAsync(pointer(column), values.data(), values.size() * sizeof(T), cudaMemcpyHostToDevice,
+                                   device_stream()),
+                   "writing a column");
+    return;
+  }
+#endif
+  assign(column, values);
+}
+
 }  // namespace dem_gpu

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "dem_gpu/core/device_vector.h"
+#include "dem_gpu/core/gate.h"
 #include "dem_gpu/core/host_device.h"
 
 namespace dem_gpu {
@@ -52,30 +53,51 @@ decltype(auto) with_policy_for(std::size_t items, const Call& call) {
 inline constexpr int kBlockThreads = 128;
 
 template <class Kernel>
-__global__ void __launch_bounds__(kBlockThreads) run_kernel(const Kernel kernel, int first, int last) {
+__global__ void __launch_bounds__(kBlockThreads) run_kernel(const Kernel kernel, int first, int last, Gate gate) {
+  if (gate.is_closed()) return;
   const int i = first + static_cast<int>(blockIdx.x * kBlockThreads + threadIdx.x);
   if (i < last) kernel(i);
 }
 
-/// kernel(i) for i in [first, last), in any order. A kernel of our own, since thrust::for_each gives a block 512 items.
+/// kernel(i) for i in [first, last), in any order, where the gate is open. A kernel of our own, since thrust::for_each
+/// gives a block 512 items.
 template <class Kernel>
-void parallel_for(int first, int last, const Kernel& kernel) {
+void parallel_for(int first, int last, const Kernel& kernel, const Gate& gate = {}) {
   if (first >= last) return;
   const unsigned blocks = static_cast<unsigned>(last - first - 1) / kBlockThreads + 1;
-  run_kernel<<<blocks, kBlockThreads, 0, device_stream()>>>(kernel, first, last);
+  run_kernel<<<blocks, kBlockThreads, 0, device_stream()>>>(kernel, first, last, gate);
   check_device(cudaGetLastError(), "launching a kernel");
 }
 
 #else
 
-/// kernel(i) for i in [first, last), in any order.
+/// For a gate that has launches written down: launch(gate that has not) in the list.
+template <class Launch>
+void write_down(const Gate& gate, const Launch& launch) {
+  Gate later = gate;
+  later.record = nullptr;
+  gate.record->push_back([launch, later] { launch(later); });
+}
+
+/// The launch itself: one copy of the kernel, whoever calls it.
 template <class Kernel>
-void parallel_for(int first, int last, const Kernel& kernel) {
+__attribute__((noinline)) void run_kernel(int first, int last, const Kernel& kernel) {
   if (last - first <= kFewItems) {
     for (int i = first; i < last; ++i) kernel(i);
     return;
   }
-  thrust::for_each(thrust::device, thrust::counting_iterator<int>(first), thrust::counting_iterator<int>(last), kernel);
+  if (first < last)
+    thrust::for_each(thrust::device, thrust::counting_iterator<int>(first), thrust::counting_iterator<int>(last),
+                     kernel);
+}
+
+/// kernel(i) for i in [first, last), in any order, where the gate is open.
+template <class Kernel>
+void parallel_for(int first, int last, const Kernel& kernel, const Gate& gate = {}) {
+  if (gate.record)
+    write_down(gate, [=](const Gate& later) { parallel_for(first, last, kernel, later); });
+  else if (!gate.is_closed())
+    run_kernel(first, last, kernel);
 }
 
 #endif
@@ -100,22 +122,39 @@ struct RangeKernel {
 
 TALUS_HD inline int range_count(int items) { return (items + kRangeLength - 1) / kRangeLength; }
 
-/// kernel(i, j) for ranges [i, j) that cover [first, last), of up to kRangeLength items, in any order.
+#if defined(TALUS_BACKEND_CUDA)
+
+/// kernel(i, j) for ranges [i, j) that cover [first, last), of up to kRangeLength items, in any order, where the gate
+/// is open.
 template <class Kernel>
-void parallel_for_ranges(int first, int last, const Kernel& kernel) {
+void parallel_for_ranges(int first, int last, const Kernel& kernel, const Gate& gate = {}) {
+  parallel_for(0, range_count(last - first), RangeKernel<Kernel>{kernel, first, last}, gate);
+}
+
+#else
+
+template <class Kernel>
+__attribute__((noinline)) void run_ranges(int first, int last, const Kernel& kernel) {
   const int ranges = range_count(last - first);
   const RangeKernel<Kernel> of_range{kernel, first, last};
-  if constexpr (kFewRanges > 0) {
-    if (ranges <= kFewRanges) {
-      for (int i = 0; i < ranges; ++i) of_range(i);
-      return;
-    }
+  if (ranges <= kFewRanges)
+    for (int i = 0; i < ranges; ++i) of_range(i);
+  else
     thrust::for_each(thrust::device, thrust::counting_iterator<int>(0), thrust::counting_iterator<int>(ranges),
                      of_range);
-  } else {
-    parallel_for(0, ranges, of_range);
-  }
 }
+
+/// kernel(i, j) for ranges [i, j) that cover [first, last), of up to kRangeLength items, in any order, where the gate
+/// is open.
+template <class Kernel>
+void parallel_for_ranges(int first, int last, const Kernel& kernel, const Gate& gate = {}) {
+  if (gate.record)
+    write_down(gate, [=](const Gate& later) { parallel_for_ranges(first, last, kernel, later); });
+  else if (!gate.is_closed())
+    run_ranges(first, last, kernel);
+}
+
+#endif
 
 template <class T>
 void fill(DeviceVector<T>& column, const T& value) {
