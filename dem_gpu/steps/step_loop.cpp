@@ -43,7 +43,7 @@ void StepLoop::run_passes(const Model& model, State& state, std::size_t first) {
 }
 
 int StepLoop::block_length(const State& state) const {
-  const auto life = static_cast<std::uint64_t>(std::max(last_life_, state.step - listed_step_));
+  const auto life = static_cast<std::uint64_t>(std::max({std::int64_t{0}, last_life_, state.step - listed_step_}));
   return static_cast<int>(std::clamp<std::uint64_t>(std::bit_floor(life / 4), kShortestBlock, kLongestBlock));
 }
 

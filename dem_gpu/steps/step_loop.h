@@ -12,8 +12,8 @@
 
 namespace dem_gpu {
 
-/// The passes of a step, step after step: one by one with the host, or in blocks of steps that the host launches without
-/// a look at what they find.
+/// The passes of a step, step after step: one by one with the host, or in blocks of steps that the host launches
+/// without a look at what they find.
 ///
 /// Each pass of each step of a block has a place. A kernel that finds that the host is needed (the neighbour list is
 /// worn, a body is lost or leaves) halts the block at the place of the pass whose `run` sees to it; the gates of all

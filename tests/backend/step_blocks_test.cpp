@@ -22,8 +22,7 @@ dem_gpu::Scene resting_walls() {
     for (int y = 0; y < 3; ++y) {
       scene.bodies.push_back(body_at(1, {-0.05 + 0.03 * x, -0.03 + 0.03 * y, 0.009}));
       scene.bodies.back().velocity = {0.8, 0.1 * y, 0};
-      scene.bodies.push_back(
-          body_at((x + y) % 2, {-0.05 + 0.03 * x, -0.03 + 0.03 * y, 0.05}, random_rotation(random)));
+      scene.bodies.push_back(body_at((x + y) % 2, {-0.05 + 0.03 * x, -0.03 + 0.03 * y, 0.05}, random_rotation(random)));
     }
   dem_gpu::Wall left, right, end;
   left.name = "left";
