@@ -12,6 +12,8 @@ namespace {
 // half way launches the other half for nothing. So: a quarter of what lists live, between these.
 constexpr int kShortestBlock = 8;
 constexpr int kLongestBlock = 64;
+/// Taking down costs as much as launching: lists that are worn before are not worth it.
+constexpr int kCaptureAge = 64;
 
 }  // namespace
 
@@ -39,7 +41,6 @@ void StepLoop::run_passes(const Model& model, State& state, std::size_t first) {
   list_version_ = state.columns_version;
   last_life_ = state.step - listed_step_;
   listed_step_ = state.step;
-  has_served_a_block_ = false;
 }
 
 int StepLoop::block_length(const State& state) const {
@@ -71,7 +72,6 @@ std::int64_t StepLoop::run_block(const Model& model, State& state, int steps) {
   const int halted = halted_at_[0], done = halted / pass_count;
   counts_.in_blocks += done;
   state.step = start + done;
-  has_served_a_block_ = true;
   if (halted == end) return done;
   ++counts_.halts;
   ++state.step;  // the bodies have been moved
@@ -97,10 +97,10 @@ bool StepLoop::repeats_itself(const Model& model, const State& state) const {
                      [&](const auto& pass) { return pass->repeats_itself(model, state); });
 }
 
-/// Taking down costs as much as launching: a list that is worn within its first block is not worth it, nor is a block
-/// most of which is left out.
+/// Not for a block most of which is left out.
 bool StepLoop::use_graph(const Model& model, State& state, int steps) {
-  if (blocks_ != StepBlocks::captured || !has_served_a_block_ || !repeats_itself(model, state)) return false;
+  if (blocks_ != StepBlocks::captured || state.step - listed_step_ < kCaptureAge || !repeats_itself(model, state))
+    return false;
   const int length = block_length(state);
   if (2 * steps < length) return false;
   if (graph_version_ == list_version_ && graph_steps_ == length) return true;

@@ -48,7 +48,6 @@ class StepLoop {
   std::int64_t list_version_ = -1;
   std::int64_t listed_step_ = 0;  // when it was made
   std::int64_t last_life_ = 0;    // steps that the list before it served
-  bool has_served_a_block_ = false;
   LaunchGraph graph_;
   std::int64_t graph_version_ = -1;  // of the list whose steps it holds
   int graph_steps_ = 0;
