@@ -15,6 +15,7 @@
 #include "dem_gpu/start/model_builder.h"
 #include "dem_gpu/start/start_overlap.h"
 #include "dem_gpu/step_builder.h"
+#include "dem_gpu/steps/step_loop.h"
 
 namespace dem_gpu {
 
@@ -25,19 +26,25 @@ Vec3 sphere_contact_point(const Vec3& a, Real radius_a, const Vec3& b, Real dept
   return a + (radius_a - depth / 2) * unit_or(b - a, {0, 0, 1});
 }
 
+#ifdef TALUS_BACKEND_CUDA
+constexpr StepBlocks kStepBlocks = StepBlocks::captured;
+#else
+constexpr StepBlocks kStepBlocks = StepBlocks::none;
+#endif
+
 }  // namespace
 
 struct Simulation::Engine {
   BodyColumns initial_bodies;
   Model model;
   State state;
-  std::vector<std::unique_ptr<Pass>> passes;
+  StepLoop steps;
 
   explicit Engine(const Scene& scene)
       : model(make_model(scene, prepare_shapes(scene), initial_bodies)),
         state(start_state(model, std::move(initial_bodies))),
-        passes(build_step(scene)) {
-    find_forces(passes, model, state);
+        steps(build_step(scene), kStepBlocks) {
+    find_forces(steps.passes(), model, state);
     refuse_deep_start(model, state);
     refuse_fast_walls(model, state);
     if (model.features.has_ledger) state.accounts.initial_elastic = book_start_energy(model, state);
@@ -64,11 +71,14 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 
 void Simulation::advance(std::int64_t steps) {
-  for (std::int64_t i = 0; i < steps; ++i)
-    for (const auto& pass : engine_->passes) pass->run(engine_->model, engine_->state);
+  engine_->steps.advance(engine_->model, engine_->state, steps);
   engine_->state.accounts.wall_load_time += static_cast<double>(steps) * engine_->model.time_step;
+  wait_for_launches();
   engine_->refuse_truncated_polygons();
 }
+
+void Simulation::set_step_blocks(StepBlocks blocks) { engine_->steps.set_blocks(blocks); }
+StepCounts Simulation::step_counts() const { return engine_->steps.counts(); }
 
 void Simulation::push(int body, const Vec3& impulse, const Vec3& angular_impulse) {
   const Model& model = engine_->model;
@@ -91,7 +101,7 @@ std::int64_t Simulation::step() const { return engine_->state.step; }
 
 std::vector<std::string> Simulation::pass_names() const {
   std::vector<std::string> names;
-  for (const auto& pass : engine_->passes) names.push_back(pass->name());
+  for (const auto& pass : engine_->steps.passes()) names.push_back(pass->name());
   return names;
 }
 

@@ -60,6 +60,21 @@ struct BulkState {
   int candidate_pairs = 0;  // that the neighbour list holds, looked at in each step
 };
 
+/// How the steps reach the device. The outcome is the same to the last bit.
+enum class StepBlocks {
+  none,      // step by step, the host looks at each: what the CPU does
+  launched,  // the host launches blocks of steps and looks after each block
+  captured,  // as launched; blocks are CUDA graphs where steps repeat themselves: what the GPU does
+};
+
+/// How steps were done, since the run began.
+struct StepCounts {
+  std::int64_t by_themselves = 0;  // with the host, from the beginning or from where a block was halted
+  std::int64_t in_blocks = 0;
+  std::int64_t halts = 0;    // blocks that ended before their time
+  std::int64_t replays = 0;  // blocks that were captured
+};
+
 /// One DEM run. Deterministic: the same scene gives the same bytes whatever the thread count.
 class Simulation {
  public:
@@ -72,6 +87,10 @@ class Simulation {
   /// Runs n steps. Throws std::runtime_error naming step, body and remedy if a body's state is no longer finite, if a
   /// point of one moves more than a quarter of its least width in a step, or if energy comes from nothing.
   void advance(std::int64_t steps);
+
+  /// For comparisons; the back end's own way is set from the start.
+  void set_step_blocks(StepBlocks blocks);
+  StepCounts step_counts() const;
 
   /// Gives a body an impulse through its centre and an angular impulse, world frame: a load from outside the engine,
   /// force x time_step() before each step. The ledger counts the energy as initial.

@@ -6,11 +6,11 @@ set -euo pipefail
 [ $# -eq 1 ] || { echo "usage: kernel_report.sh LOG" >&2; exit 2; }
 printf '| kernel | registers | stack [bytes] | spill stores [bytes] | spill loads [bytes] |\n|---|---:|---:|---:|---:|\n'
 c++filt < "$1" | awk '
-  # The functor that the launch works off: between the wrapper of for_each and the iterator.
+  # The functor that the launch works off: the argument of the template run_kernel.
   function short_name(text) {
-    if (!match(text, /op_wrapper_t<long, /)) return ""
+    if (!match(text, /run_kernel</)) return ""
     text = substr(text, RSTART + RLENGTH)
-    sub(/, thrust::[A-Za-z0-9_:]*counting_iterator<.*/, "", text)
+    sub(/ ?>\(.*/, "", text)
     gsub(/dem_gpu::/, "", text)
     gsub(/\(anonymous namespace\)::/, "", text)
     gsub(/ >/, ">", text)

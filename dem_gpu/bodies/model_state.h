@@ -78,6 +78,8 @@ struct State {
   bool list_is_stale = true;
   Accounts accounts;
   GhostColumns ghosts;
+  DeviceVector<int> list_is_worn = DeviceVector<int>(1, 0);  // raised by the kernel that moves the bodies
+  std::int64_t columns_version = 0;  // counts the times that columns have come to lie elsewhere or changed in length
 
   Real time(const Model& model) const { return static_cast<Real>(step) * model.time_step; }
 };

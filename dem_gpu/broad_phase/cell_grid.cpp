@@ -103,11 +103,16 @@ void CellGrid::build(const BodyView& bodies, Real skin) {
   origin_ = Vec3{low[0], low[1], low[2]} - 2 * largest * Vec3{1, 1, 1};
   parallel_for(0, bodies.count, AssignCell{bodies, view(), pointer(cell_), pointer(body_)});
   sort_by_key(cell_, body_);
-  count_ = count_below(cell_, kNoCell);
-  for (int size_class = 0; size_class < class_count_; ++size_class)
-    classes_[size_class] = {count_below(cell_, View::key(size_class, 0, 0, 0)),
-                            std::min(count_, count_below(cell_, View::key(size_class + 1, 0, 0, 0))),
-                            classes_[size_class].cell};
+  std::array<std::int64_t, kMostClasses + 2> bounds;  // of the classes, and of all
+  for (int size_class = 0; size_class <= kMostClasses; ++size_class)
+    bounds[static_cast<std::size_t>(size_class)] = View::key(size_class, 0, 0, 0);
+  bounds.back() = kNoCell;
+  const std::vector<int> below = counts_below(cell_, bounds);
+  count_ = below.back();
+  for (int size_class = 0; size_class < class_count_; ++size_class) {
+    const auto first = static_cast<std::size_t>(size_class);
+    classes_[size_class] = {below[first], std::min(count_, below[first + 1]), classes_[size_class].cell};
+  }
   // Whole registers are read from any entry on.
   const std::size_t padded = n + kRealLanes;
   for (DeviceVector<Real>* column : {&x_, &y_, &z_, &reach_}) column->resize(padded);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dem_gpu/broad_phase/neighbour_list.h"
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
@@ -162,17 +163,17 @@ class NeighbourList : public Pass {
  public:
   std::string name() const override { return "neighbour_list"; }
   void run(const Model& model, State& state) override {
-    const Real moved = max_of(state.bodies.listed_displacement, Real(0));
-    if (!std::isfinite(moved)) report_lost_body(model, state);
-    const Real time = state.time(model);
-    // Two bodies may each have come half a skin closer; a wall's own motion takes its share.
-    const bool is_worn = 2 * moved + state.walls.largest_displacement(state.listed_time, time) > state.skin;
+    const bool is_worn = state.list_is_worn[0] != 0;  // by the pass that moves the bodies
     if (!is_worn && !state.list_is_stale) return;
+    if (!std::isfinite(max_of(state.bodies.listed_displacement, Real(0)))) report_lost_body(model, state);
     watch_energy(model, state);
     refuse_pushed_through(model, state);
     if (is_worn) fit_skin(model, state);
     build_neighbour_list(model, state);
   }
+  /// Nothing: that pass halts the block here.
+  void launch(const Model& /*model*/, State& /*state*/, const Gate& /*gate*/) override {}
+  bool renews_list() const override { return true; }
 };
 
 }  // namespace
@@ -195,14 +196,17 @@ void build_neighbour_list(const Model& model, State& state) {
   if (model.features.has_meshes) list_facets(model, state, next);
   carry_history(model, state, is_periodic ? &change : nullptr, next);
   state.contacts = std::move(next);
-  for (int kind = 0; kind < kContactKinds; ++kind) {
-    state.range[kind].first = count_below(state.contacts.key, contact_key(static_cast<ContactKind>(kind), 0, 0));
-    state.range[kind].last = count_below(state.contacts.key, contact_key(static_cast<ContactKind>(kind + 1), 0, 0));
-  }
+  std::array<ContactKey, kContactKinds + 1> bounds;
+  for (int kind = 0; kind <= kContactKinds; ++kind)
+    bounds[static_cast<std::size_t>(kind)] = contact_key(static_cast<ContactKind>(kind), 0, 0);
+  const std::vector<int> below = counts_below(state.contacts.key, bounds);
+  for (std::size_t kind = 0; kind < kContactKinds; ++kind) state.range[kind] = {below[kind], below[kind + 1]};
   list_incidence(model, state);
   parallel_for(0, static_cast<int>(model.bodies.shape.size()), MarkListed{bodies});
   state.listed_time = state.time(model);
   state.list_is_stale = false;
+  fill(state.list_is_worn, 0);
+  ++state.columns_version;
   ++state.accounts.list_rebuilds;
 }
 

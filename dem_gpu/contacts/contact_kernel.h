@@ -126,10 +126,10 @@ class ContactPass : public Pass {
       : name_(std::move(name)), kind_(kind), geometry_(geometry), friction_(friction) {}
 
   std::string name() const override { return name_; }
-  void run(const Model& model, State& state) override {
+  void launch(const Model& model, State& state, const Gate& gate) override {
     const ContactRange range = state.range[static_cast<int>(kind_)];
     parallel_for(range.first, range.last,
-                 ComputeContact<Geometry, Friction, Record>{contact_scene(model, state), geometry_, friction_});
+                 ComputeContact<Geometry, Friction, Record>{contact_scene(model, state), geometry_, friction_}, gate);
   }
 
  private:

@@ -68,15 +68,16 @@ struct TakeOver {
 class SeamCrossingsPass : public Pass {
  public:
   std::string name() const override { return "seam_crossings"; }
-  void run(const Model& model, State& state) override {
+  void launch(const Model& model, State& state, const Gate& gate) override {
     const ContactRange walls = state.range[static_cast<int>(ContactKind::sphere_wall)];
     const ContactRange objects = state.range[static_cast<int>(ContactKind::sphere_object)];
     const int first = walls.first, last = objects.last;
     left_.resize(static_cast<std::size_t>(std::max(last - first, 0)));
     parallel_for(
         first, last,
-        FindCrossings{contact_scene(model, state), static_cast<int>(state.contacts.key.size()), first, pointer(left_)});
-    parallel_for(first, last, TakeOver{view(state.contacts), model.features, first, pointer(left_)});
+        FindCrossings{contact_scene(model, state), static_cast<int>(state.contacts.key.size()), first, pointer(left_)},
+        gate);
+    parallel_for(first, last, TakeOver{view(state.contacts), model.features, first, pointer(left_)}, gate);
   }
 
  private:

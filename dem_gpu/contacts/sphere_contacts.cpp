@@ -91,14 +91,14 @@ class SpherePairsPass : public Pass {
   explicit SpherePairsPass(const Law& law) : law_(law) {}
 
   std::string name() const override { return "sphere_contacts"; }
-  void run(const Model& model, State& state) override {
+  void launch(const Model& model, State& state, const Gate& gate) override {
     const ContactRange range = state.range[static_cast<int>(ContactKind::sphere_sphere)];
     if (range.first == range.last) return;
     const ContactScene scene = contact_scene(model, state);
     spheres_.resize(static_cast<std::size_t>(scene.bodies.count));
-    parallel_for(0, scene.bodies.count, FillSphereRow{scene.bodies, pointer(spheres_)});
+    parallel_for(0, scene.bodies.count, FillSphereRow{scene.bodies, pointer(spheres_)}, gate);
     parallel_for_ranges(range.first, range.last,
-                        ComputeSpherePairs<Law, Friction, Record>{scene, law_, pointer(spheres_)});
+                        ComputeSpherePairs<Law, Friction, Record>{scene, law_, pointer(spheres_)}, gate);
   }
 
  private:

@@ -161,10 +161,10 @@ class SphereWallsPass : public Pass {
   explicit SphereWallsPass(const Law& law) : law_(law) {}
 
   std::string name() const override { return "sphere_wall_contacts"; }
-  void run(const Model& model, State& state) override {
+  void launch(const Model& model, State& state, const Gate& gate) override {
     const ContactRange range = state.range[static_cast<int>(ContactKind::sphere_wall)];
     parallel_for_ranges(range.first, range.last,
-                        ComputeSphereWalls<Law, Friction, Record>{contact_scene(model, state), law_});
+                        ComputeSphereWalls<Law, Friction, Record>{contact_scene(model, state), law_}, gate);
   }
 
  private:

@@ -2,8 +2,9 @@
 #pragma once
 
 // The only place that names an execution policy. Every function gives the same result whatever the number of threads.
+// On the GPU none waits for what it launches, but for those that return a number; a fault of a kernel shows where the
+// host next reads or waits (core/device_stream.h).
 
-#include <thrust/binary_search.h>
 #include <thrust/execution_policy.h>
 #include <thrust/extrema.h>
 #include <thrust/fill.h>
@@ -12,16 +13,22 @@
 #include <thrust/scan.h>
 #include <thrust/sort.h>
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <vector>
 
 #include "dem_gpu/core/device_vector.h"
+#include "dem_gpu/core/gate.h"
 #include "dem_gpu/core/host_device.h"
 
 namespace dem_gpu {
 
 #ifdef TALUS_BACKEND_CUDA
 inline constexpr int kFewItems = 0;
+inline auto device_policy() { return thrust::cuda::par_nosync(temporary_storage()).on(device_stream()); }
 #else
+inline auto device_policy() { return thrust::device; }
 /// Up to this many items are worked off by the calling thread: waking the others takes longer, by far where they share
 /// their cores with other processes.
 inline constexpr int kFewItems = 32;
@@ -36,22 +43,64 @@ decltype(auto) with_policy_for(std::size_t items, const Call& call) {
   if constexpr (kFewItems > 0) {
     if (items <= kFewItems) return call(thrust::seq);
   }
-  return call(thrust::device);
+  return call(device_policy());
 }
 
-/// kernel(i) for i in [first, last), in any order.
+#if defined(TALUS_BACKEND_CUDA)
+
+/// Threads of a block: a warp for each of a multiprocessor's four schedulers. More would put a small scene, whose
+/// kernels are bound by latency, on fewer multiprocessors; any kernel has registers enough.
+inline constexpr int kBlockThreads = 128;
+
 template <class Kernel>
-void parallel_for(int first, int last, const Kernel& kernel) {
-  if constexpr (kFewItems > 0) {
-    if (last - first <= kFewItems) {
-      for (int i = first; i < last; ++i) kernel(i);
-      return;
-    }
+__global__ void __launch_bounds__(kBlockThreads) run_kernel(const Kernel kernel, int first, int last, Gate gate) {
+  if (gate.is_closed()) return;
+  const int i = first + static_cast<int>(blockIdx.x * kBlockThreads + threadIdx.x);
+  if (i < last) kernel(i);
+}
+
+/// kernel(i) for i in [first, last), in any order, where the gate is open. A kernel of our own, since thrust::for_each
+/// gives a block 512 items.
+template <class Kernel>
+void parallel_for(int first, int last, const Kernel& kernel, const Gate& gate = {}) {
+  if (first >= last) return;
+  const unsigned blocks = static_cast<unsigned>(last - first - 1) / kBlockThreads + 1;
+  run_kernel<<<blocks, kBlockThreads, 0, device_stream()>>>(kernel, first, last, gate);
+  check_device(cudaGetLastError(), "launching a kernel");
+}
+
+#else
+
+/// For a gate that has launches written down: launch(gate that has not) in the list.
+template <class Launch>
+void write_down(const Gate& gate, const Launch& launch) {
+  Gate later = gate;
+  later.record = nullptr;
+  gate.record->push_back([launch, later] { launch(later); });
+}
+
+/// The launch itself: one copy of the kernel, whoever calls it.
+template <class Kernel>
+__attribute__((noinline)) void run_kernel(int first, int last, const Kernel& kernel) {
+  if (last - first <= kFewItems) {
+    for (int i = first; i < last; ++i) kernel(i);
+    return;
   }
   if (first < last)
     thrust::for_each(thrust::device, thrust::counting_iterator<int>(first), thrust::counting_iterator<int>(last),
                      kernel);
 }
+
+/// kernel(i) for i in [first, last), in any order, where the gate is open.
+template <class Kernel>
+void parallel_for(int first, int last, const Kernel& kernel, const Gate& gate = {}) {
+  if (gate.record)
+    write_down(gate, [=](const Gate& later) { parallel_for(first, last, kernel, later); });
+  else if (!gate.is_closed())
+    run_kernel(first, last, kernel);
+}
+
+#endif
 
 #if defined(TALUS_BACKEND_CUDA)
 inline constexpr int kRangeLength = 1;
@@ -73,9 +122,19 @@ struct RangeKernel {
 
 TALUS_HD inline int range_count(int items) { return (items + kRangeLength - 1) / kRangeLength; }
 
-/// kernel(i, j) for ranges [i, j) that cover [first, last), of up to kRangeLength items, in any order.
+#if defined(TALUS_BACKEND_CUDA)
+
+/// kernel(i, j) for ranges [i, j) that cover [first, last), of up to kRangeLength items, in any order, where the gate
+/// is open.
 template <class Kernel>
-void parallel_for_ranges(int first, int last, const Kernel& kernel) {
+void parallel_for_ranges(int first, int last, const Kernel& kernel, const Gate& gate = {}) {
+  parallel_for(0, range_count(last - first), RangeKernel<Kernel>{kernel, first, last}, gate);
+}
+
+#else
+
+template <class Kernel>
+__attribute__((noinline)) void run_ranges(int first, int last, const Kernel& kernel) {
   const int ranges = range_count(last - first);
   const RangeKernel<Kernel> of_range{kernel, first, last};
   if (ranges <= kFewRanges)
@@ -84,6 +143,18 @@ void parallel_for_ranges(int first, int last, const Kernel& kernel) {
     thrust::for_each(thrust::device, thrust::counting_iterator<int>(0), thrust::counting_iterator<int>(ranges),
                      of_range);
 }
+
+/// kernel(i, j) for ranges [i, j) that cover [first, last), of up to kRangeLength items, in any order, where the gate
+/// is open.
+template <class Kernel>
+void parallel_for_ranges(int first, int last, const Kernel& kernel, const Gate& gate = {}) {
+  if (gate.record)
+    write_down(gate, [=](const Gate& later) { parallel_for_ranges(first, last, kernel, later); });
+  else if (!gate.is_closed())
+    run_ranges(first, last, kernel);
+}
+
+#endif
 
 template <class T>
 void fill(DeviceVector<T>& column, const T& value) {
@@ -122,13 +193,6 @@ T min_of(const DeviceVector<T>& column, T empty_value) {
                          [&](auto policy) -> T { return *thrust::min_element(policy, column.begin(), column.end()); });
 }
 
-/// Number of entries of an ascending column below `value`.
-template <class T>
-int count_below(const DeviceVector<T>& ascending, const T& value) {
-  return static_cast<int>(thrust::lower_bound(thrust::device, ascending.begin(), ascending.end(), value) -
-                          ascending.begin());
-}
-
 /// First index in the ascending array whose entry is not less than `value`.
 template <class T>
 TALUS_HD inline int lower_bound(const T* ascending, int count, const T& value) {
@@ -143,6 +207,27 @@ TALUS_HD inline int lower_bound(const T* ascending, int count, const T& value) {
     }
   }
   return first;
+}
+
+template <class T, int kValues>
+struct CountBelow {
+  const T* ascending;
+  int entries;
+  T values[kValues];
+  int* counts;
+
+  TALUS_HD void operator()(int i) const { counts[i] = lower_bound(ascending, entries, values[i]); }
+};
+
+/// Number of entries of an ascending column below each of the values.
+template <class T, std::size_t kValues>
+std::vector<int> counts_below(const DeviceVector<T>& ascending, const std::array<T, kValues>& values) {
+  constexpr int count = static_cast<int>(kValues);
+  DeviceVector<int> counts(kValues);
+  CountBelow<T, count> kernel{pointer(ascending), static_cast<int>(ascending.size()), {}, pointer(counts)};
+  std::copy(values.begin(), values.end(), kernel.values);
+  parallel_for(0, count, kernel);
+  return to_host(counts);
 }
 
 }  // namespace dem_gpu

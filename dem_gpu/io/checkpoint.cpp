@@ -232,6 +232,8 @@ void read_one(const std::filesystem::path& path, const Model& model, State& stat
   accounts.list_rebuilds = file.integer_attribute("list_rebuilds");
   state.walls.move_to(state.time(model));
   if (model.scene.periodic) fit_columns_to_ghosts(model, state);
+  state.list_is_worn.assign(1, 0);
+  ++state.columns_version;
   // Not kept: how long pairs may wait changes nothing but time.
   if (model.features.has_waiting_pairs) state.contacts.apart_until.assign(state.contacts.key.size(), Real(0));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dem_gpu/bodies/model_state.h"
+#include "dem_gpu/broad_phase/list_wear.h"
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/energy/energy.h"
 #include "dem_gpu/motion/motion_passes.h"
@@ -12,9 +13,13 @@ namespace {
 struct AdvanceBody {
   BodyView bodies;
   Real time_step;  // [s]
+  ListWear wear;
 
   TALUS_HD void operator()(int i) const {
-    if (!bodies.is_moving(i)) return;
+    if (!bodies.is_moving(i)) {
+      wear.note(Real(0));  // a wall may have come
+      return;
+    }
     const Vec3 kick = (time_step / 2 * bodies.inverse_mass[i]) * bodies.force[i];
     const Vec3 velocity = bodies.velocity[i] + kick;
     bodies.position[i] += time_step * velocity;
@@ -25,7 +30,9 @@ struct AdvanceBody {
       turn_round_body(i);
     else
       turn_body(i);
-    bodies.listed_displacement[i] = displacement(i, velocity);
+    const Real displacement = displacement_since_listed(i, velocity);
+    bodies.listed_displacement[i] = displacement;
+    wear.note(displacement);
     if (bodies.travel)
       bodies.travel[i] +=
           time_step * (norm(velocity) + bodies.bounding_radius[i] * norm(bodies.mean_angular_velocity[i]));
@@ -62,7 +69,7 @@ struct AdvanceBody {
   TALUS_HD static Vec3 over(const Vec3& a, const Vec3& b) { return {a.x / b.x, a.y / b.y, a.z / b.z}; }
 
   /// Infinite for a body that is lost: not finite, or so fast that it could pass through another.
-  TALUS_HD Real displacement(int i, const Vec3& velocity) const {
+  TALUS_HD Real displacement_since_listed(int i, const Vec3& velocity) const {
     const Real distance = norm(bodies.position[i] - bodies.listed_position[i]);
     const Real spin_squared = norm_squared(bodies.angular_velocity[i]), radius = bodies.turning_radius(i);
     const Real turning = radius > 0 ? std::sqrt(spin_squared) * radius : 0;
@@ -77,7 +84,7 @@ struct AdvanceRange {
   AdvanceBody one;
 
   TALUS_HD void operator()(int begin, int end) const {
-    const RoundBodies round{one.bodies, one.time_step};
+    const RoundBodies round{one.bodies, one.time_step, one.wear};
     int i = begin;
     while (i < end) {
       const bool is_block = kRealLanes > 1 && i + kRealLanes <= end;
@@ -95,10 +102,12 @@ class AdvanceBodies : public Pass {
  public:
   std::string name() const override { return "advance_bodies"; }
   bool finds_forces() const override { return false; }
-  void run(const Model& model, State& state) override {
-    const BodyView bodies = view(model.bodies, state.bodies);
-    parallel_for_ranges(0, bodies.count, AdvanceRange{{bodies, model.time_step}});
+  void launch(const Model& model, State& state, const Gate& gate) override {
     ++state.step;
+    const BodyView bodies = view(model.bodies, state.bodies);
+    const ListWear wear{state.skin, state.walls.largest_displacement(state.listed_time, state.time(model)),
+                        pointer(state.list_is_worn), gate.halted_at, gate.list_place};
+    parallel_for_ranges(0, bodies.count, AdvanceRange{{bodies, model.time_step, wear}}, gate);
   }
 };
 
@@ -110,6 +119,19 @@ class AdvanceWalls : public Pass {
     if (!state.walls.move_to(state.time(model))) return;
     close_accounts_of_absent_walls(model, state);
     state.list_is_stale = true;
+  }
+  /// The host moves the walls, which it knows how to do beforehand, as it launches the steps.
+  void launch(const Model& model, State& state, const Gate& /*gate*/) override {
+    if (state.walls.any_moves()) state.walls.move_to(state.time(model));
+  }
+  bool needs_host(const Model& model, const State& state, std::int64_t step) const override {
+    return state.walls.comes_or_goes(static_cast<Real>(step) * model.time_step);
+  }
+  bool repeats_itself(const Model& /*model*/, const State& state) const override { return !state.walls.any_moves(); }
+  void take_back(const Model& model, State& state) override {
+    if (!state.walls.any_moves()) return;
+    state.walls.move_to(static_cast<Real>(state.step - 1) * model.time_step);
+    state.walls.move_to(state.time(model));
   }
 };
 

@@ -52,11 +52,12 @@ struct GatherForces {
 class GatherForcesPass : public Pass {
  public:
   std::string name() const override { return "gather_forces"; }
-  void run(const Model& model, State& state) override {
+  void launch(const Model& model, State& state, const Gate& gate) override {
     const BodyView bodies = view(model.bodies, state.bodies);
     parallel_for(0, bodies.count,
                  GatherForces{bodies, view(state.contacts), pointer(state.incident_first), pointer(state.incident),
-                              static_cast<int>(state.incident.size()), model.scene.gravity, model.time_step});
+                              static_cast<int>(state.incident.size()), model.scene.gravity, model.time_step},
+                 gate);
   }
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dem_gpu/bodies/body_columns.h"
+#include "dem_gpu/broad_phase/list_wear.h"
 #include "dem_gpu/core/row_blocks.h"
 #include "dem_gpu/motion/rigid_body.h"
 
@@ -12,6 +13,7 @@ namespace dem_gpu {
 struct RoundBodies {
   BodyView bodies;
   Real time_step;  // [s]
+  ListWear wear;
 
   TALUS_HD static bool is_round(const Vec3& inertia) { return inertia.x == inertia.y && inertia.y == inertia.z; }
 
@@ -63,7 +65,9 @@ struct RoundBodies {
     const RealLanes large = RealLanes{} + Real(1e300);
     const auto is_sound =
         (distance < large) & (spin_squared < large) & (time_step * (speed + turning) < kTravelShare * width);
-    store_lanes_at(select(is_sound, distance, RealLanes{} + Real(HUGE_VAL)), bodies.listed_displacement + first);
+    const RealLanes displacement = select(is_sound, distance, RealLanes{} + Real(HUGE_VAL));
+    store_lanes_at(displacement, bodies.listed_displacement + first);
+    wear.note(displacement);
     if (bodies.travel)
       store_lanes_at(load_lanes_at(bodies.travel + first) + time_step * (speed + radius * spin), bodies.travel + first);
   }

@@ -68,10 +68,10 @@ struct UpdateGhost {
   }
 };
 
-void update_ghosts(const Model& model, State& state) {
+void update_ghosts(const Model& model, State& state, const Gate& gate = {}) {
   const BodyView bodies = bodies_with_ghosts(model, state);
   const GhostView ghosts = ghost_view(model, state);
-  parallel_for(ghosts.body_count, bodies.count, UpdateGhost{bodies, ghosts, lattice_of(model.scene)});
+  parallel_for(ghosts.body_count, bodies.count, UpdateGhost{bodies, ghosts, lattice_of(model.scene)}, gate);
 }
 
 template <class T>
@@ -127,7 +127,7 @@ struct WrapContactPoint {
 class UpdateGhosts : public Pass {
  public:
   std::string name() const override { return "update_ghosts"; }
-  void run(const Model& model, State& state) override { update_ghosts(model, state); }
+  void launch(const Model& model, State& state, const Gate& gate) override { update_ghosts(model, state, gate); }
 };
 
 }  // namespace

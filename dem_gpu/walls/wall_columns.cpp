@@ -185,7 +185,7 @@ bool WallSet::move_to(Real time) {
     const Motion& motion = walls_[w].motion;
     const Quaternion turn = rotation(w);
     const Vec3 shift = translation(w);
-    const bool is_present = !walls_[w].removed_at || time < *walls_[w].removed_at;
+    const bool is_present = is_present_at(w, time);
     const WallRate rate = rate_at(motion, time), mean = mean_rate(motion, before, time);
     has_changed |= is_present != now_[w].is_present;
     now_[w].is_present = is_present;
@@ -198,7 +198,7 @@ bool WallSet::move_to(Real time) {
     now_[w].mean_velocity = mean.velocity;
     now_[w].mean_angular_velocity = mean.angular_velocity;
   }
-  assign(device_, now_);
+  assign_launched(device_, now_);
   return has_changed;
 }
 
@@ -225,6 +225,20 @@ int WallSet::fastest(Real span) const {
 
 Real WallSet::bound_of_displacement(int wall, Real span) const {
   return displacement(wall, largest_travel(walls_[wall].motion, span));
+}
+
+bool WallSet::is_present_at(int wall, Real time) const {
+  return !walls_[wall].removed_at || time < *walls_[wall].removed_at;
+}
+
+bool WallSet::any_moves() const {
+  return std::any_of(walls_.begin(), walls_.end(), [](const Wall& wall) { return is_moving(wall.motion); });
+}
+
+bool WallSet::comes_or_goes(Real time) const {
+  for (int w = 0; w < count(); ++w)
+    if (is_present_at(w, time) != now_[w].is_present) return true;
+  return false;
 }
 
 bool WallSet::has_moving_walls() const {

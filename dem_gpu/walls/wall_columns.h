@@ -61,8 +61,13 @@ class WallSet {
   Vec3 translation(int wall) const;  // x_world(t) = rotation * x_world(0) + translation
   Quaternion rotation(int wall) const;
   bool has_moving_walls() const;
+  /// Does any have a motion? Walls that come or go alone stay where they are.
+  bool any_moves() const;
+  /// Is any there now that is not at `time`, or the other way round?
+  bool comes_or_goes(Real time) const;
 
  private:
+  bool is_present_at(int wall, Real time) const;
   Real displacement(int wall, const WallTravel& gone) const;
   Real bound_of_displacement(int wall, Real span) const;
   /// Finds walls that share a rim and keep sharing it.

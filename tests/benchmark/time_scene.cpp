@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,10 +25,12 @@ using benchmark_scenes::SceneOptions;
 constexpr char kUsage[] =
     "usage: time_scene NAME [--law depth|volume] [--bodies N] [--overlap SHARE] [--steps-per-contact N] [--ledger]\n"
     "                  [--settle SECONDS | --settled [--tiles N]] [--window SECONDS] [--windows N] [--keep FOLDER]\n"
+    "                  [--blocks none|launched|captured]\n"
     "NAME: s1-box s1-drum s2 s3 s4 hopper-4 hopper-8 mill-4 mill-8\n"
     "--settled: from where talus bench speed starts its windows, after 500 steps, instead of settling at full "
     "accuracy\n"
     "--tiles: N x N settled boxes side by side (s1-box, s2, s3)\n"
+    "--blocks: how steps reach the device, instead of the back end's own way\n"
     "--keep: settle once; later runs go on from the checkpoint in FOLDER\n";
 
 struct Options {
@@ -39,6 +42,7 @@ struct Options {
   bool is_settled = false;
   int tiles = 1;
   std::filesystem::path keep;
+  std::optional<dem_gpu::StepBlocks> blocks;
 };
 
 constexpr int kResettlingSteps = 500;
@@ -62,6 +66,13 @@ benchmark_scenes::Law law(const std::string& value) {
   if (value == "volume") return benchmark_scenes::Law::overlap_volume;
   if (value == "depth") return benchmark_scenes::Law::depth_potential;
   throw std::invalid_argument("--law takes depth or volume, not '" + value + "'");
+}
+
+dem_gpu::StepBlocks step_blocks(const std::string& value) {
+  if (value == "none") return dem_gpu::StepBlocks::none;
+  if (value == "launched") return dem_gpu::StepBlocks::launched;
+  if (value == "captured") return dem_gpu::StepBlocks::captured;
+  throw std::invalid_argument("--blocks takes none, launched or captured, not '" + value + "'");
 }
 
 Options parsed(int argc, char** argv) {
@@ -98,6 +109,8 @@ Options parsed(int argc, char** argv) {
       options.tiles = count(name, value);
     else if (name == "--keep")
       options.keep = value;
+    else if (name == "--blocks")
+      options.blocks = step_blocks(value);
     else
       throw std::invalid_argument("unknown option " + name);
   }
@@ -156,6 +169,10 @@ void print_state(const dem_gpu::Simulation& simulation) {
               root_mean_square(snapshot, snapshot.angular_velocity));
   std::printf("largest overlap %.4f of the diameter, fewest steps in a contact %.1f\n", quality.largest_overlap,
               quality.smallest_steps_per_contact);
+  if (const dem_gpu::StepCounts counts = simulation.step_counts(); counts.in_blocks > 0)
+    std::printf("%lld steps by themselves, %lld in blocks, %lld halts, %lld replays\n",
+                static_cast<long long>(counts.by_themselves), static_cast<long long>(counts.in_blocks),
+                static_cast<long long>(counts.halts), static_cast<long long>(counts.replays));
   if (const dem_gpu::EnergyLedger ledger = simulation.ledger(); ledger.throughput > 0)
     std::printf("energy imbalance %.3g of what was put in\n", ledger.imbalance() / ledger.throughput);
 }
@@ -174,6 +191,7 @@ dem_gpu::Scene scene_to_time(const Options& options, const benchmark_scenes::Spe
 void time_scene(const Options& options) {
   const benchmark_scenes::SpeedScene& chosen = benchmark_scenes::speed_scene(options.scene);
   dem_gpu::Simulation simulation(scene_to_time(options, chosen));
+  if (options.blocks) simulation.set_step_blocks(*options.blocks);
   std::printf("%d bodies begin\n%s: time step %.4g s\n", simulation.bulk().active_bodies, options.scene.c_str(),
               simulation.time_step());
   if (options.is_settled)
