@@ -9,7 +9,7 @@
 
 namespace dem_gpu {
 
-/// Limits of the neighbour list's skin, and where it begins, in mean body diameters.
+/// Limits of the neighbour list's skin, and where it begins, in mean body diameters. Periodic boxes keep the first.
 inline constexpr Real kFirstSkin = 0.1, kLeastSkin = 0.04, kLargestSkin = 0.5;
 
 /// The skin for the next list after one with `skin` that lasted `steps` steps [m]. Bodies that use up u of it in a step

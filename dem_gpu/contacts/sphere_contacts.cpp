@@ -3,6 +3,7 @@
 #include "dem_gpu/contacts/sphere_geometry.h"
 #include "dem_gpu/contacts/sphere_pairs.h"
 #include "dem_gpu/contacts/touching_pairs.h"
+#include "dem_gpu/core/prefetch.h"
 
 namespace dem_gpu {
 namespace {
@@ -37,7 +38,7 @@ struct ComputeSpherePairs {
       if constexpr (Record::kEnabled)
         for (int i = 0; i < kRealLanes && first + i < touching.count; ++i) record(rows, i, touch, response);
       write_spheres<Friction>(scene, rows, touch, response);
-      peaks.take(touch, response);
+      peaks.take(rows, touch, response);
     }
     peaks.keep(scene.contacts, begin);
   }
@@ -57,7 +58,7 @@ struct ComputeSpherePairs {
   }
   TALUS_HD void find_touching(int first, int count, TouchingPairs& touching) const {
     const PairRows rows = candidates(first, count);
-    for (int i = 0; i < kRealLanes; ++i) TALUS_PREFETCH(scene.contacts.row + first + kRealLanes + i);
+    for (int i = 0; i < count; ++i) prefetch_to_write(scene.contacts.row + first + i);
     const unsigned here = (1u << count) - 1, touches = touching_bits(spheres, rows) & here;
     touching.append(rows, touches);
     for (unsigned apart = here & ~touches; apart != 0; apart &= apart - 1) {

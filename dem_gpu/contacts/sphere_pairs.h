@@ -5,6 +5,7 @@
 #include "dem_gpu/contacts/friction/rolling_friction.h"
 #include "dem_gpu/contacts/normal_damping.h"
 #include "dem_gpu/contacts/sphere_rows.h"
+#include "dem_gpu/core/lanes.h"
 
 namespace dem_gpu {
 
@@ -243,22 +244,29 @@ TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void respond_to_touch(const Law& law, 
   find_forces<Law, Friction>(law, scene, rows, last, touch, pair, mean, predicted, response);
 }
 
-/// The worst of a range of contacts, kept by its first: what is read is the worst of all.
+/// The worst of a range of contacts: the overlap where it is, so that a message names those bodies; of the rates the
+/// largest of all is read, whichever contact has it.
 struct PeakLanes {
-  RealLanes overlap{}, rate{};
+  Real overlap = 0;
+  int contact = 0;  // that has it
+  RealLanes rate{};
 
-  TALUS_HD void take(const SphereTouch& touch, const SphereResponse& response) {
-    if (bits_of(touch.depth > overlap * response.diameter) != 0)
-      overlap = larger(overlap, touch.depth / response.diameter);
+  TALUS_HD void take(const PairRows& rows, const SphereTouch& touch, const SphereResponse& response) {
+    for (unsigned worse = bits_of(touch.depth > overlap * response.diameter); worse != 0; worse &= worse - 1) {
+      const int i = lowest_bit(worse);
+      const Real in_lane = lane(touch.depth, i) / lane(response.diameter, i);
+      if (in_lane <= overlap) continue;
+      overlap = in_lane;
+      contact = rows.contact[i];
+    }
     rate = larger(rate, response.stiffness * response.inverse_mass);
   }
+  /// `first`: contact of the range.
   TALUS_HD void keep(const ContactView& contacts, int first) const {
-    Real& peak_overlap = contacts.peak_overlap[first];
+    Real& peak_overlap = contacts.peak_overlap[contact];
+    peak_overlap = larger(peak_overlap, overlap);
     Real& peak_rate = contacts.peak_rate[first];
-    for (int i = 0; i < kRealLanes; ++i) {
-      peak_overlap = larger(peak_overlap, lane(overlap, i));
-      peak_rate = larger(peak_rate, lane(rate, i));
-    }
+    for (int i = 0; i < kRealLanes; ++i) peak_rate = larger(peak_rate, lane(rate, i));
   }
 };
 

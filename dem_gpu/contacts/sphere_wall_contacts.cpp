@@ -110,7 +110,7 @@ struct ComputeSphereWalls {
         for (int i = 0; i < count; ++i) record(rows, i, touch, response);
       write_spheres<Friction>(scene, rows, touch, response);
       for (int i = 0; i < count; ++i) write_wall(rows.contact[i], rows.a[i], rows.b[i], i, touch, response);
-      peaks.take(touch, response);
+      peaks.take(rows, touch, response);
     }
     peaks.keep(scene.contacts, begin);
   }

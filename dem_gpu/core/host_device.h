@@ -43,10 +43,3 @@
 #else
 #define TALUS_UNROLL _Pragma("GCC unroll 8")
 #endif
-
-/// Asks for a line of memory that will be read and written soon. On the GPU other threads hide the wait.
-#if defined(__CUDACC__)
-#define TALUS_PREFETCH(address)
-#else
-#define TALUS_PREFETCH(address) __builtin_prefetch(address, 1)
-#endif

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dem_gpu/bodies/model_state.h"
 #include "dem_gpu/core/parallel.h"
+#include "dem_gpu/core/prefetch.h"
 #include "dem_gpu/core/row_quads.h"
 #include "dem_gpu/motion/motion_passes.h"
 
@@ -19,10 +20,10 @@ struct GatherForces {
 
   static constexpr int kAhead = 16;  // contacts of bodies to come
 
-  TALUS_HD void prefetch([[maybe_unused]] int k) const {
-    [[maybe_unused]] const std::int64_t contact = (incident[k < incident_count ? k : 0] & 0xffffffff) >> 1;
-    TALUS_PREFETCH(contacts.row + contact);
-    TALUS_PREFETCH(contacts.torques + contact);
+  TALUS_HD void prefetch(int k) const {
+    const std::int64_t contact = (incident[k < incident_count ? k : 0] & 0xffffffff) >> 1;
+    prefetch_to_read(contacts.row + contact);
+    prefetch_to_read(contacts.torques + contact);
   }
 
   TALUS_HD void operator()(int i) const {

@@ -9,14 +9,17 @@
 #include <utility>
 
 #include "catalog/input_error.h"
+#include "dem_gpu/broad_phase/skin.h"
 #include "dem_gpu/periodic/wall_extent.h"
 
 namespace dem_gpu {
 namespace {
 
 /// How far beyond a face a body may reach, over its bounding radius: before it is taken back in its centre may have
-/// drifted half a skin out, a twentieth of a mean diameter, and one step's travel.
+/// drifted half a skin out, a twentieth of a mean diameter (periodic boxes keep the skin they begin with), and one
+/// step's travel.
 constexpr Real kReachShare = 1.2;
+static_assert(kFirstSkin <= Real(0.1));
 /// Component of a plane's unit normal along a periodic axis that is rounding.
 constexpr Real kNormalRounding = 1e-9;
 constexpr std::array<const char*, 3> kAxisName{"x", "y", "z"};

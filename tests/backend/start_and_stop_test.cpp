@@ -50,6 +50,36 @@ TEST(FailedRun, DeepOverlapAtTheStartIsRefusedByName) {
   EXPECT_NO_THROW(dem_gpu::Simulation(overlapping_cubes(0.019)));  // 5 % of the edge
 }
 
+/// A row of spheres that touch, and two more that fly through one another, or one through a floor.
+dem_gpu::Scene row_and_shots(bool is_at_floor) {
+  dem_gpu::Scene scene = empty_scene(0.5, 0.5);
+  scene.gravity = {};
+  scene.sphere_law = dem_gpu::LinearSpring{20};
+  scene.run.time_step = 2e-5;
+  scene.shapes = {dem_gpu::sphere_shape("ball", 0.01)};
+  for (int i = 0; i < 60; ++i) scene.bodies.push_back(body_at(0, {0.0199 * i, 0, 0.0099}));
+  scene.bodies.push_back(body_at(0, {0, 1, is_at_floor ? 0.011 : 0.1}));
+  scene.bodies.push_back(body_at(0, {0.021, 1, 0.1}));
+  scene.bodies[60].velocity = is_at_floor ? Vec3{0, 0, -4} : Vec3{4, 0, 0};
+  scene.bodies[61].velocity = is_at_floor ? Vec3{} : Vec3{-4, 0, 0};
+  scene.walls = {floor_wall()};
+  return scene;
+}
+
+TEST(FailedRun, BodiesPushedThroughOneAnotherAreNamed) {
+  for (const bool is_at_floor : {false, true}) {
+    dem_gpu::Simulation simulation(row_and_shots(is_at_floor));
+    try {
+      simulation.advance(2000);
+      FAIL() << "must stop";
+    } catch (const std::runtime_error& error) {
+      const std::string message = error.what();
+      const std::string pair = is_at_floor ? "body 60 and wall 'floor'" : "body 60 and body 61";
+      EXPECT_NE(message.find(pair + " have sunk into one another"), std::string::npos) << message;
+    }
+  }
+}
+
 std::string refusal(const dem_gpu::Scene& scene) {
   try {
     dem_gpu::Simulation simulation(scene);
