@@ -60,7 +60,7 @@ inline void scatter_quad(Row* rows, const RowLanes& lanes, int quad, const Quad<
   const __m512d zw_even = _mm512_maskz_unpacklo_pd(kAllLanes, z, w), zw_odd = _mm512_maskz_unpackhi_pd(kAllLanes, z, w);
   const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
   const auto store = [&](int i, const __m512d& two_rows) {
-    _mm256_storeu_pd(quad_of(rows, lanes, i, quad), _mm512_castpd512_pd256(two_rows));
+    _mm256_storeu_pd(quad_of(rows, lanes, i, quad), __builtin_shufflevector(two_rows, two_rows, 0, 1, 2, 3));
     _mm256_storeu_pd(quad_of(rows, lanes, i + 4, quad), _mm512_maskz_extractf64x4_pd(kAllLanes, two_rows, 1));
   };
   store(0, _mm512_permutex2var_pd(xy_even, low, zw_even));
