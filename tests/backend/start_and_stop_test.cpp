@@ -58,8 +58,9 @@ dem_gpu::Scene row_and_shots(bool is_at_floor) {
   scene.run.time_step = 2e-5;
   scene.shapes = {dem_gpu::sphere_shape("ball", 0.01)};
   for (int i = 0; i < 60; ++i) scene.bodies.push_back(body_at(0, {0.0199 * i, 0, 0.0099}));
-  scene.bodies.push_back(body_at(0, {0, 1, is_at_floor ? 0.011 : 0.1}));
-  scene.bodies.push_back(body_at(0, {0.021, 1, 0.1}));
+  scene.bodies.push_back(body_at(0, {0, 1, is_at_floor ? 0.021 : 0.1}));
+  scene.bodies.push_back(body_at(0, {0.031, 1, 0.1}));
+  scene.bodies[60].scale = 2;
   scene.bodies[60].velocity = is_at_floor ? Vec3{0, 0, -4} : Vec3{4, 0, 0};
   scene.bodies[61].velocity = is_at_floor ? Vec3{} : Vec3{-4, 0, 0};
   scene.walls = {floor_wall()};
