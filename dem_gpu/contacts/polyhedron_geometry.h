@@ -7,6 +7,7 @@
 
 #include "dem_gpu/contacts/contact_kernel.h"
 #include "dem_gpu/narrow_phase/depth_integrals.h"
+#include "dem_gpu/narrow_phase/parts_apart.h"
 #include "dem_gpu/narrow_phase/volume_integrals.h"
 
 namespace dem_gpu {
@@ -43,6 +44,13 @@ struct PairOutcome {
   Real distance = 0;
 };
 
+/// Rounding may have made a distance of two bodies larger than it is by a few units of the last place of their size [m
+/// in a's unscaled frame].
+TALUS_HD inline Real rounding_of_distance(const ShapeRange& a, const ShapeRange& b, const FrameChange& b_to_a) {
+  constexpr Real kRounding = 10 * kCoplanarity;
+  return kRounding * (a.bounding_radius + b_to_a.scale * b.bounding_radius);
+}
+
 /// Sums a law's integrals over all pairs of parts of two polyhedral bodies. `separating`: the contact's cache, one
 /// entry per pair of parts.
 template <class Integrals>
@@ -76,10 +84,27 @@ TALUS_HD PairOutcome integrate_bodies(const ShapeView& shapes, int shape_a, int 
       least = std::min(least, distance);
     }
   }
-  // Rounding may have made it larger than it is by a few units of the last place of the bodies' size.
-  constexpr Real kRounding = 10 * kCoplanarity;
-  outcome.distance = a.scale * (least - kRounding * (range_a.bounding_radius + b_to_a.scale * range_b.bounding_radius));
+  outcome.distance = a.scale * (least - rounding_of_distance(range_a, range_b, b_to_a));
   return outcome;
+}
+
+/// How far apart two polyhedral bodies are at least [m]; 0 where they are not apart, or within rounding.
+TALUS_HD TALUS_DEVICE_CALL inline Real distance_of_bodies(const ShapeView& shapes, int shape_a, int shape_b,
+                                                          const Pose& a, const Pose& b) {
+  const ShapeRange &range_a = shapes.shapes[shape_a], &range_b = shapes.shapes[shape_b];
+  const FrameChange b_to_a = frame_change(a, b);
+  Real least = std::numeric_limits<Real>::max();  // [m in a's unscaled frame]
+  for (int j = 0; j < range_b.part_count; ++j) {
+    const PartView part_b = part_view(shapes, range_b.first_part + j);
+    const Vec3 centre_b = b_to_a.point(part_b.range.centre);
+    for (int i = 0; i < range_a.part_count && least > 0; ++i) {
+      const PartView part_a = part_view(shapes, range_a.first_part + i);
+      const Real of_balls =
+          norm(centre_b - part_a.range.centre) - (b_to_a.scale * part_b.range.radius + part_a.range.radius);
+      if (of_balls < least) least = std::min(least, std::max(of_balls, distance_apart(part_a, part_b, b_to_a)));
+    }
+  }
+  return a.scale * (least - rounding_of_distance(range_a, range_b, b_to_a));
 }
 
 /// Polyhedron against polyhedron, or against a convex volume object.
@@ -127,7 +152,14 @@ struct PolyhedronGeometry {
                                                  scene.contacts.separating + scene.contacts.cache_begin[c], integrals);
     if (!outcome.is_whole) scene.contacts.is_truncated[c] = 1;
     if (!integrals.to_contact(law, pose_a, elastic)) {
-      if constexpr (kMayWait) wait(scene, c, a, b, outcome.distance);
+      if constexpr (kMayWait)
+        if (scene.contacts.apart_until) {
+          // Where no face plane is between them, an edge of each may be.
+          const Real distance = outcome.distance > 0
+                                    ? outcome.distance
+                                    : distance_of_bodies(scene.shapes, shape_a, shape_b, pose_a, pose_b);
+          wait(scene, c, a, b, distance);
+        }
       return false;
     }
     if constexpr (integrals.kHasPatch) patch = integrals.to_patch(law, pose_a, elastic);

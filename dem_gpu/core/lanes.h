@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <type_traits>
 
@@ -267,6 +268,20 @@ inline LaneSet lanes_above(const Lanes& a, const Lanes& b) {
 
 #endif
 
+/// From sixteen numbers.
+TALUS_HD inline Lanes in_order(const Lanes& low, const Lanes& high, const LaneOrder& order) {
+#if defined(__CUDACC__)
+  return Lanes::each([&](int i) { return order.lane[i] < kLanes ? low[order.lane[i]] : high[order.lane[i] - kLanes]; });
+#elif defined(TALUS_LANE_HALVES) && !defined(TALUS_MIXED_PRECISION)
+  LocalReal values[2 * kLanes];
+  store_lanes(low, values);
+  store_lanes(high, values + kLanes);
+  return gathered(values, order);
+#else
+  return __builtin_shuffle(low, high, lane_index(order));
+#endif
+}
+
 /// Which of eight sets of vertices hold all of `some`.
 TALUS_HD inline LaneSet sets_holding_all(const std::uint64_t* sets, std::uint64_t some) {
 #if defined(__AVX512F__) && !defined(__CUDACC__)
@@ -303,25 +318,41 @@ TALUS_HD auto greatest_lane(const SomeLanes& a) {
   const SomeLanes fours = greatest(a, swapped_lanes(a, 4)), twos = greatest(fours, swapped_lanes(fours, 2));
   return twos[0] > twos[1] ? twos[0] : twos[1];
 }
-#if !defined(TALUS_LANE_HALVES) || defined(TALUS_MIXED_PRECISION)
 /// Lane k: the sum of the lanes of `of[k]`; on the CPU neighbours first.
-TALUS_HD TALUS_INLINE Lanes sums_of_lanes(const Lanes (&of)[kLanes]) {
+template <class SomeLanes>
+TALUS_HD TALUS_INLINE SomeLanes sums_of_lanes(const SomeLanes (&of)[kLanes]) {
 #if defined(__CUDACC__)
-  return Lanes::each([&](int i) { return sum_of_lanes(of[i]); });
+  return SomeLanes::each([&](int i) { return sum_of_lanes(of[i]); });
 #else
-  const auto pairs = [](const Lanes& a, const Lanes& b) {
-    return __builtin_shuffle(a, b, LaneIndex{0, 8, 2, 10, 4, 12, 6, 14}) +
-           __builtin_shuffle(a, b, LaneIndex{1, 9, 3, 11, 5, 13, 7, 15});
+  using Index = std::conditional_t<sizeof(SomeLanes) == sizeof(WideIndex), WideIndex, LaneIndex>;
+  const auto pairs = [](const SomeLanes& a, const SomeLanes& b) {
+    return __builtin_shuffle(a, b, Index{0, 8, 2, 10, 4, 12, 6, 14}) +
+           __builtin_shuffle(a, b, Index{1, 9, 3, 11, 5, 13, 7, 15});
   };
-  const auto halves = [](const Lanes& a, const Lanes& b) {
-    return __builtin_shuffle(a, b, LaneIndex{0, 1, 4, 5, 8, 9, 12, 13}) +
-           __builtin_shuffle(a, b, LaneIndex{2, 3, 6, 7, 10, 11, 14, 15});
+  const auto halves = [](const SomeLanes& a, const SomeLanes& b) {
+    return __builtin_shuffle(a, b, Index{0, 1, 4, 5, 8, 9, 12, 13}) +
+           __builtin_shuffle(a, b, Index{2, 3, 6, 7, 10, 11, 14, 15});
   };
   return halves(halves(pairs(of[0], of[1]), pairs(of[2], of[3])), halves(pairs(of[4], of[5]), pairs(of[6], of[7])));
 #endif
 }
 
+/// Square roots.
+TALUS_HD inline Lanes roots(const Lanes& a) {
+#if defined(__CUDACC__)
+  return Lanes::each([&](int i) { return std::sqrt(a[i]); });
+#elif defined(TALUS_LANE_HALVES) && !defined(TALUS_MIXED_PRECISION)
+  return {LaneHalves::Half(_mm256_sqrt_pd(__m256d(a.low))), LaneHalves::Half(_mm256_sqrt_pd(__m256d(a.high)))};
+#elif defined(__AVX512F__) && !defined(TALUS_MIXED_PRECISION)
+  return Lanes(_mm512_maskz_sqrt_pd(0xff, __m512d(a)));
+#elif defined(__AVX__) && defined(TALUS_MIXED_PRECISION)
+  return Lanes(_mm256_sqrt_ps(__m256(a)));
+#else
+  Lanes result;
+  for (int i = 0; i < kLanes; ++i) result[i] = std::sqrt(a[i]);
+  return result;
 #endif
+}
 
 /// The first lane in all.
 TALUS_HD inline Lanes first_lane(const Lanes& a) { return every_lane<Lanes>(a[0]); }

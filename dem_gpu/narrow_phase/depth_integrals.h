@@ -17,7 +17,7 @@ namespace dem_gpu {
 /// friction).
 template <class Profile, class Sums = NoPatchSums>
 struct DepthIntegralsOf {
-  static constexpr bool kNeedsDepthPlanes = true;
+  static constexpr bool kNeedsDepth = true;
   static constexpr bool kHasPatch = std::is_same_v<Sums, PatchSums>;
   using PolygonSum = std::conditional_t<kHasPatch, PolygonPatchDepthOf<Profile>, PolygonDepthOf<Profile>>;
 

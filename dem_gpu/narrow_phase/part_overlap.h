@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <limits>
 
+#include "dem_gpu/narrow_phase/closing_planes.h"
 #include "dem_gpu/narrow_phase/flush_planes.h"
 #include "dem_gpu/narrow_phase/near_depth.h"
 #include "dem_gpu/narrow_phase/polygon.h"
 #include "dem_gpu/narrow_phase/separating_plane.h"
 #include "dem_gpu/narrow_phase/surface_pieces.h"
+#include "dem_gpu/narrow_phase/surface_triangles.h"
 
 namespace dem_gpu {
 
@@ -20,6 +22,7 @@ struct Meeting {
   static constexpr LocalReal kClearDepth = 100;
 
   FaceSet faces, planes;
+  FaceSet reached;  // of the planes, those that a piece still reaches
   bool is_thin = false;
 };
 
@@ -39,39 +42,48 @@ class CutPieces {
     return true;
   }
 
-  /// Does any piece reach beyond the plane?
-  TALUS_HD TALUS_INLINE bool reaches_beyond(const LocalHalfSpace& plane) const {
-    LaneSet beyond = 0;
-    for (int i = 0; i < count_; ++i) beyond |= lanes_above(Lanes{}, depths_below(plane, piece_[i].corners));
-    return beyond != 0;
-  }
-
-  /// Does any piece reach deeper below the plane?
-  TALUS_HD TALUS_INLINE bool reaches_below(const LocalHalfSpace& plane, LocalReal depth) const {
+  /// Do the pieces have corners within some depth below the plane, and beneath it?
+  struct Reach {
+    bool is_near, is_deep;
+  };
+  TALUS_HD TALUS_INLINE Reach reach_below(const LocalHalfSpace& plane, LocalReal depth) const {
     const Lanes limit = every_lane<Lanes>(depth);
-    LaneSet below = 0;
-    for (int i = 0; i < count_; ++i) below |= lanes_above(depths_below(plane, piece_[i].corners), limit);
-    return below != 0;
+    constexpr LaneSet kAll = (1u << kLanes) - 1;
+    LaneSet below = 0, all_below = kAll;
+    for (int i = 0; i < count_; ++i) {
+      const LaneSet of_piece = lanes_above(depths_below(plane, piece_[i].corners), limit);
+      below |= of_piece;
+      all_below &= of_piece;
+    }
+    return {all_below != kAll, below != 0};
   }
 
-  /// Keeps what lies inside the plane. A piece that outgrows its lanes becomes two; false if there is no room for them.
-  TALUS_HD TALUS_INLINE bool cut_all(const LocalHalfSpace& plane) {
+  /// What a plane has done.
+  enum class Cut : std::uint8_t { none, some, no_room };
+
+  /// Keeps what lies inside the plane. A piece that outgrows its lanes becomes two, if there is room for them.
+  TALUS_HD TALUS_INLINE Cut cut_all(const LocalHalfSpace& plane) {
+    ScratchArray<Lanes, kMost> depths;
+    LaneSet beyond = 0;
+    for (int i = 0; i < count_; ++i) {
+      depths[i] = depths_below(plane, piece_[i].corners);
+      beyond |= lanes_above(Lanes{}, depths[i]);
+    }
+    if (beyond == 0) return Cut::none;
     int kept = 0;
     for (int i = 0; i < count_; ++i) {
-      Polygon polygon = piece_[i];
-      const std::uint8_t face = face_[i];
-      Lanes depths = depths_below(plane, polygon.corners);
-      if (outgrows(cut_order(polygon, depths))) {
-        if (!add(half_of(polygon, true), face)) return false;
-        polygon = half_of(polygon, false);
-        depths = depths_below(plane, polygon.corners);
+      if (outgrows(cut_order(piece_[i], depths[i]))) {
+        if (!add(half_of(piece_[i], true), face_[i])) return Cut::no_room;
+        depths[count_ - 1] = depths_below(plane, piece_[count_ - 1].corners);
+        piece_[i] = half_of(piece_[i], false);
+        depths[i] = depths_below(plane, piece_[i].corners);
       }
-      piece_[kept] = cut(polygon, depths, cut_order(polygon, depths));
-      face_[kept] = face;
+      piece_[kept] = cut(piece_[i], depths[i], cut_order(piece_[i], depths[i]));
+      face_[kept] = face_[i];
       kept += static_cast<int>(piece_[kept].count > 0);
     }
     count_ = kept;
-    return true;
+    return Cut::some;
   }
 
  private:
@@ -128,14 +140,17 @@ TALUS_HD TALUS_INLINE bool cut_to_solid(const PartView& solid, const PlaneSides&
   FaceSet cutting;
   for (int k = 0; k < sides.plane_count && pieces.count() > 0; ++k) {
     const int f = sides.plane[k];
-    if (!pieces.reaches_beyond(solid.planes[f])) continue;
-    if (!pieces.cut_all(solid.planes[f])) return false;
-    cutting.add(f);
+    const CutPieces::Cut cut = pieces.cut_all(solid.planes[f]);
+    if (cut == CutPieces::Cut::no_room) return false;
+    if (cut == CutPieces::Cut::some) cutting.add(f);
   }
   meeting.planes.add(cutting);
   for (int k = 0; k < sides.plane_count && pieces.count() > 0; ++k)
-    if (const int f = sides.plane[k]; cutting.has(f))
-      meeting.is_thin |= !pieces.reaches_below(solid.planes[f], Meeting::kClearDepth * tolerance);
+    if (const int f = sides.plane[k]; cutting.has(f)) {
+      const CutPieces::Reach reach = pieces.reach_below(solid.planes[f], Meeting::kClearDepth * tolerance);
+      if (reach.is_near) meeting.reached.add(f);
+      meeting.is_thin |= !reach.is_deep;
+    }
   return true;
 }
 
@@ -217,9 +232,7 @@ TALUS_HD inline FaceSet planes_of(const PartView& part, const FaceSet& faces) {
 TALUS_HD TALUS_DEVICE_CALL inline FaceSet faces_that_bound(const PartView& solid, const PartView& surface,
                                                            const Meeting& met, const PartVertices& vertices,
                                                            PlaneSides& sides) {
-  std::uint64_t outside = 0;
-  for (int k = 0; k < sides.plane_count; ++k) outside |= sides.outside[k];
-  const std::uint64_t inside = ~outside & vertices.all();
+  const std::uint64_t inside = sides.inside(vertices);
   const bool is_lost = met.faces.is_empty() && inside != 0 && inside != vertices.all();
   if (met.is_thin || is_lost) return FaceSet::all();
   const FaceSet cut_by = planes_of(surface, met.faces);
@@ -266,14 +279,155 @@ TALUS_HD TALUS_DEVICE_CALL bool integrate_near_depth(const PartView& solid, cons
 
 enum class OverlapStatus : std::uint8_t { separated, overlapping, polygon_truncated };
 
+/// Two parts, one of each body, as a pair that may overlap: their vertices in each other's frames, by each other's
+/// planes.
+struct PartPair {
+  const PartView &a, &b;
+  const FrameChange& b_to_a;
+  PartVertices vertices_a, vertices_b;  // in the other part's frame
+  PlaneSides sides_a, sides_b;          // of these vertices
+  LocalReal tolerance_a, tolerance_b;   // rounding of a's planes, and of b's [m]
+  FlushPlanes flush;
+
+  TALUS_HD PartPair(const PartView& part_a, const PartView& part_b, const FrameChange& change)
+      : a(part_a), b(part_b), b_to_a(change) {}
+
+  /// A face plane that separates the parts, or 0.
+  TALUS_HD SeparatingPlane classify_both(const FrameChange& a_to_b, const FlushRule& rule) {
+    tolerance_a = rounded(kCoplanarity * (a.range.radius + b_to_a.scale * b.range.radius));
+    tolerance_b = rounded(kCoplanarity * (b.range.radius + a_to_b.scale * a.range.radius));
+    // Of the smaller part only: a large one's vertices are far from a plane that is nearly flush.
+    const bool is_b_smaller = b_to_a.scale * b.range.radius <= a.range.radius;
+    const LocalReal near_a = is_b_smaller ? tolerance_a + rounded(kNearlyFlush * b_to_a.scale * b.range.radius) : 0;
+    const LocalReal near_b = is_b_smaller ? 0 : tolerance_b + rounded(kNearlyFlush * a_to_b.scale * a.range.radius);
+    transform_vertices(b, b_to_a, vertices_b);
+    const int face_a = classify(a, vertices_b, near_a, sides_b);
+    if (face_a >= 0) return static_cast<SeparatingPlane>(face_a + 1);
+    transform_vertices(a, a_to_b, vertices_a);
+    const int face_b = classify(b, vertices_a, near_b, sides_a);
+    if (face_b >= 0) return static_cast<SeparatingPlane>(-face_b - 1);
+    if (sides_a.near_count + sides_b.near_count > 0)
+      flush.find(a, b, b_to_a, rule, is_b_smaller, is_b_smaller ? sides_b : sides_a,
+                 is_b_smaller ? vertices_b : vertices_a, is_b_smaller ? near_a : near_b);
+    return 0;
+  }
+
+  /// Faces lie flush: each of them is looked at from both sides.
+  TALUS_HD bool is_flush() const { return flush.count > 0; }
+  /// The body that reaches in with fewer of its vertices comes first: few of its faces lie inside, and they tell which
+  /// of the other's are worth a look.
+  TALUS_HD bool is_b_first() const { return sides_b.least_inside(vertices_b) <= sides_a.least_inside(vertices_a); }
+
+  /// The part whose surface this is, and the one that it is cut by.
+  TALUS_HD const PartView& surface(bool is_of_b) const { return is_of_b ? b : a; }
+  TALUS_HD const PartView& solid(bool is_of_b) const { return is_of_b ? a : b; }
+  /// Of the surface, in the solid's frame, and by the solid's planes.
+  TALUS_HD const PartVertices& vertices(bool is_of_b) const { return is_of_b ? vertices_b : vertices_a; }
+  TALUS_HD const PlaneSides& sides(bool is_of_b) const { return is_of_b ? sides_b : sides_a; }
+
+  /// Visits the pieces of one part's wanted faces inside the other: visitor(polygon in the other's frame, face). False
+  /// if a polygon was truncated.
+  template <class Visitor>
+  TALUS_HD bool visit(bool is_of_b, const FaceSet& wanted, Meeting& meeting, Visitor&& visitor) const {
+    return visit_flush_surface_inside({flush, surface(is_of_b), solid(is_of_b), b_to_a, !is_of_b}, wanted,
+                                      vertices(is_of_b), sides(is_of_b), is_of_b ? tolerance_a : tolerance_b, meeting,
+                                      visitor);
+  }
+
+  /// The planes of one part that close what of the other one's surface is inside it: those that it reaches, and those
+  /// of faces with a corner inside the other part, which it may surround.
+  TALUS_HD FaceSet closing(bool is_of_b, const Meeting& met) const {
+    const PartView& part = surface(is_of_b);
+    FaceSet planes = met.reached;
+    if (const std::uint64_t inside = sides(is_of_b).inside(vertices(is_of_b)); inside != 0)
+      for (int f = 0; f < part.range.face_count; ++f)
+        if ((part.faces[f].vertices & inside) != 0) planes.add(part.faces[f].plane);
+    return planes;
+  }
+
+  /// The faces of one part that bound the overlap, once the other one's surface has been visited.
+  TALUS_HD FaceSet bounding(bool is_of_b, const Meeting& met) {
+    if (is_flush()) return FaceSet::all();
+    return is_of_b ? faces_that_bound(b, a, met, vertices_b, sides_b)
+                   : faces_that_bound(a, b, met, vertices_a, sides_a);
+  }
+};
+
+/// The overlap of two parts by the depth of each one's surface in the other. False if a polygon was truncated.
+template <class Integrals>
+TALUS_HD bool integrate_depths(PartPair& pair, Integrals& integrals) {
+  const auto add = [&](bool is_of_b, const FaceSet& wanted, Meeting& meeting) {
+    const PartView& surface = pair.surface(is_of_b);
+    return integrate_near_depth(
+        pair.solid(is_of_b), pair.vertices(is_of_b),
+        [&](auto&& visitor) { return pair.visit(is_of_b, wanted, meeting, visitor); },
+        [&](Polygon& polygon, int face, const PartView& solid) {
+          const bool is_outer = face < surface.range.outer_face_count;
+          if (is_of_b)
+            integrals.add_surface_b(polygon, surface.planes[face], is_outer, solid, pair.b_to_a);
+          else
+            integrals.add_surface_a(polygon, surface.planes[face], is_outer, solid, pair.b_to_a);
+        });
+  };
+  const bool is_b_first = pair.is_b_first();
+  Meeting meeting, unused;
+  bool is_whole = add(is_b_first, FaceSet::all(), meeting);
+  is_whole &= add(!is_b_first, pair.bounding(!is_b_first, meeting), unused);
+  return is_whole && !integrals.is_truncated;
+}
+
+/// The overlap of two parts as a solid: from one part's surface alone where that can be, as most often, else from
+/// both. False if a polygon was truncated.
+template <class Integrals>
+TALUS_HD bool integrate_solid(PartPair& pair, Integrals& integrals) {
+  SurfaceTriangles triangles;
+  bool is_all_here = true;  // in `triangles`; else some have been added
+  const auto hand_on = [&](bool is_of_b) {
+    if (triangles.is_empty()) return;
+    triangles.fill_up();
+    if (!is_of_b) triangles.move(pair.b_to_a);
+    integrals.add_surface(triangles, is_of_b);
+    triangles.clear();
+  };
+  const auto collect = [&](bool is_of_b, const FaceSet& wanted, Meeting& meeting) {
+    const int outer_count = pair.surface(is_of_b).range.outer_face_count;
+    return pair.visit(is_of_b, wanted, meeting, [&](const Polygon& polygon, int face) {
+      if (triangles.add(polygon, face < outer_count)) return;
+      is_all_here = false;
+      hand_on(is_of_b);
+      triangles.add(polygon, face < outer_count);
+    });
+  };
+  const bool is_b_first = pair.is_b_first();
+  Meeting meeting, unused;
+  bool is_whole = collect(is_b_first, FaceSet::all(), meeting);
+  ClosingPlanes planes;
+  if (is_whole && is_all_here && !triangles.is_empty() && !meeting.is_thin && !pair.is_flush() &&
+      planes.find(pair.solid(is_b_first), pair.closing(!is_b_first, meeting), triangles.point(0))) {
+    triangles.fill_up();
+    if (!is_b_first) {
+      triangles.move(pair.b_to_a);
+      planes = planes.moved(pair.b_to_a);
+    }
+    integrals.add_closed(triangles, is_b_first, planes);
+    return true;
+  }
+  hand_on(is_b_first);
+  is_whole &= collect(!is_b_first, pair.bounding(!is_b_first, meeting), unused);
+  hand_on(!is_b_first);
+  return is_whole;
+}
+
 /// Sums `Integrals` over the overlap of part a of one body and part b of another. `b_to_a` and `a_to_b` are inverse
 /// frame changes; `rule` of the two bodies; `separating` is the pair's cache. `distance`: of separated parts, that they
-/// are apart at least, in a's unscaled frame [m]; 0 where that is not known. `Integrals` provides:
-///   kNeedsDepthPlanes                           whether depth fields are integrated; then also
+/// are apart at least, in a's unscaled frame [m]; 0 where that is not known. `Integrals` provides, where kNeedsDepth
+/// says that depth fields are integrated:
 ///   is_truncated                                whether a piece of a polygon did not fit
-///   finish()                                    without depth fields: ends the pair
 ///   add_surface_b(polygon, plane_b, is_outer, part_a, b_to_a)   a piece of b's surface inside a, polygon in a's frame
 ///   add_surface_a(polygon, plane_a, is_outer, part_b, b_to_a)   a piece of a's surface inside b, polygon in b's frame
+/// else, all in a's frame:
+///   add_surface(triangles, is_of_b)             one part's surface inside the other; both parts' are added
+///   add_closed(triangles, is_of_b, planes)      one part's surface inside the other, whose planes close it
 /// Cut faces are visited too.
 template <class Integrals>
 TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, const FrameChange& b_to_a,
@@ -284,74 +438,16 @@ TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, c
     distance = separating > 0 ? distance_outside(b, a.planes[separating - 1], b_to_a)
                               : b_to_a.scale * distance_outside(a, b.planes[-separating - 1], a_to_b);
     if (distance >= 0) return OverlapStatus::separated;
+    distance = 0;
   }
-  separating = 0;
-
-  PartVertices vertices_b, vertices_a;
-  PlaneSides sides_b, sides_a;
-  const LocalReal tolerance_a = rounded(kCoplanarity * (a.range.radius + b_to_a.scale * b.range.radius));
-  const LocalReal tolerance_b = rounded(kCoplanarity * (b.range.radius + a_to_b.scale * a.range.radius));
-  // Of the smaller part only: a large one's vertices are far from a plane that is nearly flush.
-  const bool is_b_smaller = b_to_a.scale * b.range.radius <= a.range.radius;
-  const LocalReal near_a = is_b_smaller ? tolerance_a + rounded(kNearlyFlush * b_to_a.scale * b.range.radius) : 0;
-  const LocalReal near_b = is_b_smaller ? 0 : tolerance_b + rounded(kNearlyFlush * a_to_b.scale * a.range.radius);
-  transform_vertices(b, b_to_a, vertices_b);
-  const int face_a = classify(a, vertices_b, near_a, sides_b);
-  if (face_a >= 0) {
-    separating = static_cast<SeparatingPlane>(face_a + 1);
-    return OverlapStatus::separated;
-  }
-  transform_vertices(a, a_to_b, vertices_a);
-  const int face_b = classify(b, vertices_a, near_b, sides_a);
-  if (face_b >= 0) {
-    separating = static_cast<SeparatingPlane>(-face_b - 1);
-    return OverlapStatus::separated;
-  }
-
-  FlushPlanes flush;
-  if (sides_a.near_count + sides_b.near_count > 0)
-    flush.find(a, b, b_to_a, rule, is_b_smaller, is_b_smaller ? sides_b : sides_a,
-               is_b_smaller ? vertices_b : vertices_a, is_b_smaller ? near_a : near_b);
-  const auto add = [&](auto&& visit, const PartView& solid, const PartVertices& vertices, auto&& add_piece) {
-    if constexpr (Integrals::kNeedsDepthPlanes)
-      return integrate_near_depth(solid, vertices, visit, add_piece);
-    else
-      return visit([&](Polygon& polygon, int face) { add_piece(polygon, face, solid); });
-  };
-  const auto add_b = [&](const FaceSet& wanted, Meeting& meeting) {
-    const auto visit = [&](auto&& visitor) {
-      return visit_flush_surface_inside({flush, b, a, b_to_a, false}, wanted, vertices_b, sides_b, tolerance_a, meeting,
-                                        visitor);
-    };
-    return add(visit, a, vertices_b, [&](Polygon& polygon, int face, const PartView& solid) {
-      integrals.add_surface_b(polygon, b.planes[face], face < b.range.outer_face_count, solid, b_to_a);
-    });
-  };
-  const auto add_a = [&](const FaceSet& wanted, Meeting& meeting) {
-    const auto visit = [&](auto&& visitor) {
-      return visit_flush_surface_inside({flush, a, b, b_to_a, true}, wanted, vertices_a, sides_a, tolerance_b, meeting,
-                                        visitor);
-    };
-    return add(visit, b, vertices_a, [&](Polygon& polygon, int face, const PartView& solid) {
-      integrals.add_surface_a(polygon, a.planes[face], face < a.range.outer_face_count, solid, b_to_a);
-    });
-  };
-  // The body that reaches in with fewer of its vertices comes first: few of its faces lie inside, and they tell which
-  // of the other's are worth a look. Where faces lie flush all are looked at.
-  const bool is_flush = flush.count > 0;
-  Meeting meeting;
+  PartPair pair(a, b, b_to_a);
+  separating = pair.classify_both(a_to_b, rule);
+  if (separating != 0) return OverlapStatus::separated;
   bool is_whole;
-  if (sides_b.least_inside(vertices_b) <= sides_a.least_inside(vertices_a)) {
-    is_whole = add_b(FaceSet::all(), meeting);
-    is_whole &= add_a(is_flush ? FaceSet::all() : faces_that_bound(a, b, meeting, vertices_a, sides_a), meeting);
-  } else {
-    is_whole = add_a(FaceSet::all(), meeting);
-    is_whole &= add_b(is_flush ? FaceSet::all() : faces_that_bound(b, a, meeting, vertices_b, sides_b), meeting);
-  }
-  if constexpr (Integrals::kNeedsDepthPlanes)
-    is_whole &= !integrals.is_truncated;
+  if constexpr (Integrals::kNeedsDepth)
+    is_whole = integrate_depths(pair, integrals);
   else
-    integrals.finish();
+    is_whole = integrate_solid(pair, integrals);
   return is_whole ? OverlapStatus::overlapping : OverlapStatus::polygon_truncated;
 }
 

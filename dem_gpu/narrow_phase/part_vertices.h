@@ -37,6 +37,10 @@ struct PartVertices {
   /// Eight vertices by their numbers.
   TALUS_HD LaneVec3 at(const LaneOrder& order) const {
     if (count <= kLanes) return in_order(block(0), lane_index(order));
+    if (count <= 2 * kLanes) {
+      const LaneVec3 low = block(0), high = block(1);
+      return {in_order(low.x, high.x, order), in_order(low.y, high.y, order), in_order(low.z, high.z, order)};
+    }
     return {gathered(x.data(), order), gathered(y.data(), order), gathered(z.data(), order)};
   }
 };

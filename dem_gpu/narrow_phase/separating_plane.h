@@ -41,6 +41,11 @@ struct FaceSet {
   TALUS_HD bool has(int i) const { return ((i < 64 ? low : high) >> (i & 63) & 1) != 0; }
   TALUS_HD void add(const FaceSet& more) { low |= more.low, high |= more.high; }
   TALUS_HD FaceSet without(const FaceSet& some) const { return {low & ~some.low, high & ~some.high}; }
+  /// Of a set that is not empty.
+  TALUS_HD int lowest() const { return low != 0 ? lowest_bit(low) : 64 + lowest_bit(high); }
+  TALUS_HD FaceSet without_lowest() const {
+    return low != 0 ? FaceSet{low & (low - 1), high} : FaceSet{0, high & (high - 1)};
+  }
   TALUS_HD void add(int i) {
     const std::uint64_t bit = std::uint64_t{1} << (i & 63);
     low |= i < 64 ? bit : 0;
@@ -59,6 +64,12 @@ struct PlaneSides {
 
   TALUS_HD void fill_up() {
     for (int k = plane_count; k < plane_count + kLanes; ++k) outside[k] = 0;
+  }
+  /// Bit v for a vertex behind all planes.
+  TALUS_HD std::uint64_t inside(const PartVertices& vertices) const {
+    std::uint64_t any = 0;
+    for (int k = 0; k < plane_count; ++k) any |= outside[k];
+    return ~any & vertices.all();
   }
   /// The fewest of the vertices that any plane leaves inside; that one is the first.
   TALUS_HD int least_inside(const PartVertices& vertices) const {

@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "dem_gpu/contacts/elastic_contact.h"
-#include "dem_gpu/narrow_phase/depth_profile.h"
-#include "dem_gpu/narrow_phase/moment_origin.h"
+#include "dem_gpu/narrow_phase/closing_planes.h"
 #include "dem_gpu/narrow_phase/part_overlap.h"
 #include "dem_gpu/narrow_phase/patch_sums.h"
+#include "dem_gpu/narrow_phase/surface_triangles.h"
 
 namespace dem_gpu {
 
@@ -17,7 +17,7 @@ namespace dem_gpu {
 /// all of the contact is one patch along S.
 template <class Sums>
 struct VolumeIntegralsOf {
-  static constexpr bool kNeedsDepthPlanes = false;
+  static constexpr bool kNeedsDepth = false;
   static constexpr bool kHasPatch = std::is_same_v<Sums, PatchSums>;
 
   Real volume = 0;                 // V [m3]
@@ -29,63 +29,34 @@ struct VolumeIntegralsOf {
   bool has_reference = false;
   Sums patch;  // of the area
 
-  /// What friction needs of one side's surface inside the other.
-  struct SideLanes {
-    WideLanes area{};
-    WideLaneVec3 vector_area{};  // outwards
-  };
-  /// The sums of the pair of parts at hand, lane by lane: `finish` adds them up.
-  struct LaneSums {
-    WideLanes volume{};
-    WideLaneVec3 area{}, area_moment{}, first_moment{};
-    WideLanes xx{}, xy{}, xz{}, yy{}, yz{}, zz{};  // of the second moment
-    // With friction.
-    SideLanes side_a, side_b;
-    WideLaneVec3 patch_first{};
-    WideLanes patch_second{};
-  };
-  LaneSums lanes;
-
-  TALUS_HD void add_surface_b(const Polygon& polygon, const LocalHalfSpace& plane_b, bool is_outer, const PartView&,
-                              const FrameChange& b_to_a) {
-    const LocalVec3 normal = rounded(b_to_a.direction(plane_b.normal));
-    const Fan fan(polygon.corners, normal);
-    add_volume(fan, normal);
-    if constexpr (kHasPatch)
-      if (is_outer) add_area(lanes.side_b, fan, normal);
-  }
-
-  TALUS_HD void add_surface_a(const Polygon& polygon, const LocalHalfSpace& plane_a, bool is_outer, const PartView&,
-                              const FrameChange& b_to_a) {
-    const LocalVec3& normal = plane_a.normal;
-    const Fan fan(rounded(moved(b_to_a, widened(polygon.corners))), normal);
-    add_volume(fan, normal);
-    if constexpr (kHasPatch)
-      if (is_outer) add_area(lanes.side_a, fan, normal);
-    const WideLaneVec3 first = widened((LocalReal(1) / 3) * fan.area * (fan.a + fan.b + fan.c));
-    const Vec3 n = normal;
-    const WideLanes part = widened(fan.area);
-    lanes.area += {n.x * part, n.y * part, n.z * part};
-    lanes.area_moment += {n.z * first.y - n.y * first.z, n.x * first.z - n.z * first.x, n.y * first.x - n.x * first.y};
-  }
-
-  /// Ends a pair of parts.
-  TALUS_HD void finish() {
-    volume += sum_of_lanes(lanes.volume);
-    area += sum_of_lanes(lanes.area);
-    area_moment += sum_of_lanes(lanes.area_moment);
-    first_moment += sum_of_lanes(lanes.first_moment);
-    const Real xy = sum_of_lanes(lanes.xy), xz = sum_of_lanes(lanes.xz), yz = sum_of_lanes(lanes.yz);
-    second_moment.column_x += Vec3{sum_of_lanes(lanes.xx), xy, xz};
-    second_moment.column_y += Vec3{xy, sum_of_lanes(lanes.yy), yz};
-    second_moment.column_z += Vec3{xz, yz, sum_of_lanes(lanes.zz)};
+  /// Adds the overlap of two parts from one part's surface inside the other alone, which these planes close. All in
+  /// a's frame; `is_of_b`: the surface is b's.
+  TALUS_HD void add_closed(const SurfaceTriangles& surface, bool is_of_b, const ClosingPlanes& planes) {
+    const Vec3 apex = LocalVec3(rounded(planes.apex)), weight = planes.dual_of_outer();
+    const SurfaceSums sums = sums_over(surface, apex, weight);
+    add_volume(sums, apex);
+    add_force_side(sums, apex, is_of_b ? -1 : 1);
     if constexpr (kHasPatch) {
-      add_side(patch.side_a, lanes.side_a, -1);
-      add_side(patch.side_b, lanes.side_b, 1);
-      patch.first_moment += sum_of_lanes(lanes.patch_first);
-      patch.second_moment += sum_of_lanes(lanes.patch_second);
+      add_patch_side(is_of_b, sums.outer_area, sums.outer_vector_area);
+      const Vec3 caps = planes.outer_area(sums.area);
+      const Real area_of_caps = std::max(-dot(weight, sums.area), Real(0));
+      add_patch_side(!is_of_b, area_of_caps, caps);
+      add_patch_moments(apex, sums.outer_area + area_of_caps, sums.area_first + sums.volume * weight,
+                        sums.area_second + 2 * dot(weight, sums.first_moment));
     }
-    lanes = {};
+  }
+
+  /// Adds one part's surface inside the other; the other part's must be added too.
+  TALUS_HD void add_surface(const SurfaceTriangles& surface, bool is_of_b) {
+    if (!has_reference) reference = surface.point(0), has_reference = true;
+    const Vec3 apex = LocalVec3(rounded(reference));
+    const SurfaceSums sums = sums_over(surface, apex, {});
+    add_volume(sums, apex);
+    if (!is_of_b) add_force_side(sums, apex, 1);
+    if constexpr (kHasPatch) {
+      add_patch_side(is_of_b, sums.outer_area, sums.outer_vector_area);
+      add_patch_moments(apex, sums.outer_area, sums.area_first, sums.area_second);
+    }
   }
 
   TALUS_HD Vec3 centroid() const { return volume > 0 ? reference + (1 / volume) * first_moment : reference; }
@@ -123,59 +94,114 @@ struct VolumeIntegralsOf {
   }
 
  private:
-  /// The triangles of a polygon's fan, a lane each.
-  struct Fan {
-    LaneVec3 a, b, c;
-    Lanes area;
-
-    TALUS_HD Fan(const LaneVec3& corners, const LocalVec3& normal)
-        : a(first_lane(corners)), b(corners), c(next_lane(corners)) {
-      area = LocalReal(0.5) * dot(normal, cross(b - a, c - a));
-    }
+  /// Sums over one part's surface inside the other, x from an apex; pyramids are those from there to the surface.
+  struct SurfaceSums {
+    Real volume;             // of the pyramids [m3]
+    Vec3 area, area_moment;  // integrals of n dA [m2] and x cross n dA [m3]
+    Vec3 first_moment;       // of the pyramids [m4]
+    Mat3 second_moment;      // [m5]
+    // Of outer faces, with friction.
+    Real outer_area;         // [m2]
+    Vec3 outer_vector_area;  // [m2]
+    // Integrals of x dA [m3] and |x|^2 dA [m4], less those of all faces weighted by n . weight.
+    Vec3 area_first;
+    Real area_second;
   };
 
-  /// `sign`: the force on a points along b's normals and against a's. The whole side counts as one contact.
-  TALUS_HD void add_side(PatchSide& side, const SideLanes& sums, Real sign) {
-    const Real area_of_side = sum_of_lanes(sums.area);
-    const Vec3 direction = sign * sum_of_lanes(sums.vector_area);
+  TALUS_HD static TALUS_INLINE SurfaceSums sums_over(const SurfaceTriangles& surface, const Vec3& apex,
+                                                     const Vec3& weight) {
+    const LocalVec3 origin = rounded(apex), along = rounded(weight);
+    WideLanes volumes[kLanes]{}, seconds[kLanes]{}, patches[kLanes]{};
+    for (int block = 0; block < surface.block_count(); ++block) {
+      const LaneVec3 a = surface.corners(0, block) - origin, b = surface.corners(1, block) - origin,
+                     c = surface.corners(2, block) - origin, sum = a + b + c;
+      const LaneVec3 area = LocalReal(0.5) * cross(b - a, c - a);
+      const LaneVec3 moment = (LocalReal(1) / 3) * cross(sum, area);
+      const Lanes pyramid = (LocalReal(1) / 3) * dot(a, area);
+      const LaneVec3 first = (LocalReal(0.25) * pyramid) * sum;  // its centroid lies at 3/4 of the way to the base's
+      const LaneVec3 square{a.x * a.x + b.x * b.x + c.x * c.x + sum.x * sum.x,
+                            a.y * a.y + b.y * b.y + c.y * c.y + sum.y * sum.y,
+                            a.z * a.z + b.z * b.z + c.z * c.z + sum.z * sum.z};
+      const Lanes share = LocalReal(0.05) * pyramid;
+      const auto product = [&](const Lanes& ai, const Lanes& aj, const Lanes& bi, const Lanes& bj, const Lanes& ci,
+                               const Lanes& cj, const Lanes& si,
+                               const Lanes& sj) { return share * (ai * aj + bi * bj + ci * cj + si * sj); };
+      add(volumes, pyramid, area, first);
+      volumes[7] += widened(moment.x);
+      const Lanes xy = product(a.x, a.y, b.x, b.y, c.x, c.y, sum.x, sum.y);
+      const Lanes yz = product(a.y, a.z, b.y, b.z, c.y, c.z, sum.y, sum.z);
+      const Lanes zx = product(a.z, a.x, b.z, b.x, c.z, c.x, sum.z, sum.x);
+      add(seconds, moment.y, share * square, {xy, yz, zx});
+      seconds[7] += widened(moment.z);
+      if constexpr (kHasPatch) {
+        const Lanes outer = surface.outer(block), outer_area = outer * roots(norm_squared(area));
+        const Lanes weighted = outer_area - dot(along, area);
+        add(patches, outer_area, outer * area, ((LocalReal(1) / 3) * weighted) * sum);
+        patches[7] += widened((LocalReal(1) / 12) * weighted * (square.x + square.y + square.z));
+      }
+    }
+    const WideLanes v = sums_of_lanes(volumes), s = sums_of_lanes(seconds);
+    SurfaceSums sums{v[0],
+                     {v[1], v[2], v[3]},
+                     {v[7], s[0], s[7]},
+                     {v[4], v[5], v[6]},
+                     {{s[1], s[4], s[6]}, {s[4], s[2], s[5]}, {s[6], s[5], s[3]}},
+                     0,
+                     {},
+                     {},
+                     0};
+    if constexpr (kHasPatch) {
+      const WideLanes p = sums_of_lanes(patches);
+      sums.outer_area = p[0];
+      sums.outer_vector_area = {p[1], p[2], p[3]};
+      sums.area_first = {p[4], p[5], p[6]};
+      sums.area_second = p[7];
+    }
+    return sums;
+  }
+  /// Into the first seven.
+  TALUS_HD static TALUS_INLINE void add(WideLanes (&sums)[kLanes], const Lanes& first, const LaneVec3& next,
+                                        const LaneVec3& last) {
+    sums[0] += widened(first);
+    sums[1] += widened(next.x);
+    sums[2] += widened(next.y);
+    sums[3] += widened(next.z);
+    sums[4] += widened(last.x);
+    sums[5] += widened(last.y);
+    sums[6] += widened(last.z);
+  }
+
+  TALUS_HD void add_volume(const SurfaceSums& sums, const Vec3& apex) {
+    if (!has_reference) reference = apex, has_reference = true;
+    const Vec3 shift = apex - reference, first = sums.first_moment, moved = first + sums.volume * shift;
+    volume += sums.volume;
+    first_moment += moved;
+    const auto column = [&](const Vec3& about_apex, Real first_i, Real shift_i) {
+      return about_apex + shift_i * moved + first_i * shift;
+    };
+    second_moment.column_x += column(sums.second_moment.column_x, first.x, shift.x);
+    second_moment.column_y += column(sums.second_moment.column_y, first.y, shift.y);
+    second_moment.column_z += column(sums.second_moment.column_z, first.z, shift.z);
+  }
+  /// Of a closed surface both integrals are zero, so b's surface tells a's with the other sign.
+  TALUS_HD void add_force_side(const SurfaceSums& sums, const Vec3& apex, Real sign) {
+    area += sign * sums.area;
+    area_moment += sign * (sums.area_moment + cross(apex, sums.area));
+  }
+
+  /// The force on a points along b's normals and against a's. The whole side counts as one contact.
+  TALUS_HD void add_patch_side(bool is_of_b, Real area_of_side, const Vec3& vector_area) {
+    PatchSide& side = is_of_b ? patch.side_b : patch.side_a;
+    const Vec3 direction = is_of_b ? vector_area : -vector_area;
     side.pointed += direction;
     side.total += direction;
     side.weight += area_of_side;
-    patch.weight += area_of_side;
   }
-  /// Adds a piece of a side's outer surface to what friction needs.
-  TALUS_HD TALUS_INLINE void add_area(SideLanes& side, const Fan& fan, const LocalVec3& normal) {
-    const MomentOrigin origin = MomentOrigin::at(point_at(fan.a, 0));
-    const LaneVec3 a = origin.to(fan.a), b = origin.to(fan.b), c = origin.to(fan.c);
-    const LaneVec3 first = (LocalReal(1) / 3) * fan.area * (a + b + c);
-    const Lanes one = every_lane<Lanes>(LocalReal(1));
-    const Lanes second = LinearProfile{}.second_moment(DepthTriangles{a, b, c, one, one, one, fan.area});
-    const WideLanes area = widened(fan.area);
-    const Vec3 n = normal;
-    side.area += area;
-    side.vector_area += {n.x * area, n.y * area, n.z * area};
-    lanes.patch_first += origin.first_about_centre(first, fan.area);
-    lanes.patch_second += origin.second_about_centre(second, first, fan.area);
-  }
-  TALUS_HD TALUS_INLINE void add_volume(const Fan& fan, const LocalVec3& normal) {
-    if (!has_reference) reference = point_at(fan.a, 0), has_reference = true;
-    const LocalVec3 origin = rounded(reference);
-    const LaneVec3 a = fan.a - origin, b = fan.b - origin, c = fan.c - origin, sum = a + b + c;
-    const LocalReal height = dot(point_at(a, 0), normal);        // the same over the plane of the polygon
-    const WideLanes pyramid = widened((height / 3) * fan.area);  // to the reference point
-    lanes.volume += pyramid;
-    // Its centroid lies at 3/4 of the way to the base's.
-    lanes.first_moment += Real(0.25) * pyramid * widened(sum);
-    const WideLanes share = Real(0.05) * pyramid;
-    const auto mean = [](const Lanes& ai, const Lanes& aj, const Lanes& bi, const Lanes& bj, const Lanes& ci,
-                         const Lanes& cj, const Lanes& si,
-                         const Lanes& sj) { return widened(ai * aj + bi * bj + ci * cj + si * sj); };
-    lanes.xx += share * mean(a.x, a.x, b.x, b.x, c.x, c.x, sum.x, sum.x);
-    lanes.xy += share * mean(a.x, a.y, b.x, b.y, c.x, c.y, sum.x, sum.y);
-    lanes.xz += share * mean(a.x, a.z, b.x, b.z, c.x, c.z, sum.x, sum.z);
-    lanes.yy += share * mean(a.y, a.y, b.y, b.y, c.y, c.y, sum.y, sum.y);
-    lanes.yz += share * mean(a.y, a.z, b.y, b.z, c.y, c.z, sum.y, sum.z);
-    lanes.zz += share * mean(a.z, a.z, b.z, b.z, c.z, c.z, sum.z, sum.z);
+  /// From moments about an apex.
+  TALUS_HD void add_patch_moments(const Vec3& apex, Real area_of_patch, const Vec3& first, Real second) {
+    patch.weight += area_of_patch;
+    patch.first_moment += first + area_of_patch * apex;
+    patch.second_moment += second + 2 * dot(apex, first) + norm_squared(apex) * area_of_patch;
   }
 };
 using VolumeIntegrals = VolumeIntegralsOf<NoPatchSums>;

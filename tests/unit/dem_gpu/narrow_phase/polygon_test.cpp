@@ -136,9 +136,9 @@ TEST(CutPieces, APieceThatOutgrowsItsLanesBecomesTwo) {
   for (int i = 0; i < 8; ++i) {
     const Real angle = 2 * std::numbers::pi * i / 8;
     const LocalHalfSpace plane = half_space({std::cos(angle), std::sin(angle), 0}, 0.97);
-    EXPECT_TRUE(pieces.reaches_beyond(plane));
-    ASSERT_TRUE(pieces.cut_all(plane));
-    EXPECT_FALSE(pieces.reaches_beyond(half_space({std::cos(angle), std::sin(angle), 0}, 0.97 + 1e-6)));
+    ASSERT_EQ(pieces.cut_all(plane), CutPieces::Cut::some);
+    const LocalHalfSpace beyond = half_space({std::cos(angle), std::sin(angle), 0}, 0.97 + 1e-6);
+    EXPECT_EQ(pieces.cut_all(beyond), CutPieces::Cut::none);
     clip(plain, plane, next);
     plain = next;
   }
