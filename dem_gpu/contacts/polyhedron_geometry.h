@@ -51,6 +51,14 @@ TALUS_HD inline Real rounding_of_distance(const ShapeRange& a, const ShapeRange&
   return kRounding * (a.bounding_radius + b_to_a.scale * b.bounding_radius);
 }
 
+/// Whether balls so far from each other that together reach so far are apart, and then how far [m].
+TALUS_HD inline bool are_apart(const Vec3& between_centres, Real reach, Real& distance) {
+  const Real square = norm_squared(between_centres);
+  if (!(square >= reach * reach)) return false;
+  distance = std::sqrt(square) - reach;
+  return true;
+}
+
 /// Sums a law's integrals over all pairs of parts of two polyhedral bodies. `separating`: the contact's cache, one
 /// entry per pair of parts.
 template <class Integrals>
@@ -58,27 +66,25 @@ TALUS_HD PairOutcome integrate_bodies(const ShapeView& shapes, int shape_a, int 
                                       SeparatingPlane* separating, Integrals& integrals) {
   const ShapeRange& range_a = shapes.shapes[shape_a];
   const ShapeRange& range_b = shapes.shapes[shape_b];
-  const FrameChange b_to_a = frame_change(a, b), a_to_b = frame_change(b, a);
-  const FlushRule rule =
-      FlushRule::of(range_a.bounding_radius, b_to_a.scale * range_b.bounding_radius, b_to_a.translation);
+  const BodyFrames bodies(a, b, range_a.bounding_radius, range_b.bounding_radius);
+  const FrameChange& b_to_a = bodies.b_to_a;
   PairOutcome outcome;
   Real least = std::numeric_limits<Real>::max();  // distance of a pair of parts [m in a's unscaled frame]
   for (int j = 0; j < range_b.part_count; ++j) {
     const PartRange& ball_b = shapes.parts[range_b.first_part + j];
     const Vec3 centre_b = b_to_a.point(ball_b.centre);
     const Real radius_b = b_to_a.scale * ball_b.radius;
-    const Real from_a = norm(centre_b) - (radius_b + range_a.bounding_radius);
-    if (from_a >= 0) {
-      least = std::min(least, from_a);
+    Real distance = 0;
+    if (are_apart(centre_b, radius_b + range_a.bounding_radius, distance)) {
+      least = std::min(least, distance);
       continue;
     }
     for (int i = 0; i < range_a.part_count; ++i) {
       const PartRange& ball_a = shapes.parts[range_a.first_part + i];
-      Real distance = norm(centre_b - ball_a.centre) - (radius_b + ball_a.radius);
-      if (distance < 0) {
+      if (!are_apart(centre_b - ball_a.centre, radius_b + ball_a.radius, distance)) {
         const OverlapStatus status =
             integrate_overlap(part_view(shapes, range_a.first_part + i), part_view(shapes, range_b.first_part + j),
-                              b_to_a, a_to_b, rule, separating[i * range_b.part_count + j], integrals, distance);
+                              bodies, separating[i * range_b.part_count + j], integrals, distance);
         if (status == OverlapStatus::polygon_truncated) outcome.is_whole = false;
       }
       least = std::min(least, distance);

@@ -20,7 +20,7 @@ struct ClosingPlanes {
   // Of plane i; normal[i] . dual[j] is 1 for i == j, else 0. An inner plane is a cut of the body that the solid is a
   // part of.
   Vec3 normal[kMost], dual[kMost];
-  bool is_outer[kMost];
+  bool is_outer[kMost]{};
 
   /// From the planes of `cutting`'s faces, in the solid's frame; the apex is near a point. False if they are more than
   /// three, or nearly parallel, or have outer faces and inner ones.

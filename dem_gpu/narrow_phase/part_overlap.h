@@ -279,6 +279,19 @@ TALUS_HD TALUS_DEVICE_CALL bool integrate_near_depth(const PartView& solid, cons
 
 enum class OverlapStatus : std::uint8_t { separated, overlapping, polygon_truncated };
 
+/// How two bodies stand to each other. What a pair that is apart has no use for is made when it is asked for.
+struct BodyFrames {
+  const Pose &a, &b;
+  Real radius_a, radius_b;  // of the bodies at scale 1, about their centres [m]
+  FrameChange b_to_a;
+
+  TALUS_HD BodyFrames(const Pose& pose_a, const Pose& pose_b, Real of_a, Real of_b)
+      : a(pose_a), b(pose_b), radius_a(of_a), radius_b(of_b), b_to_a(frame_change(pose_a, pose_b)) {}
+
+  TALUS_HD FrameChange a_to_b() const { return frame_change(b, a); }
+  TALUS_HD FlushRule flush_rule() const { return FlushRule::of(radius_a, b_to_a.scale * radius_b, b_to_a.translation); }
+};
+
 /// Two parts, one of each body, as a pair that may overlap: their vertices in each other's frames, by each other's
 /// planes.
 struct PartPair {
@@ -293,7 +306,8 @@ struct PartPair {
       : a(part_a), b(part_b), b_to_a(change) {}
 
   /// A face plane that separates the parts, or 0.
-  TALUS_HD SeparatingPlane classify_both(const FrameChange& a_to_b, const FlushRule& rule) {
+  TALUS_HD SeparatingPlane classify_both(const BodyFrames& bodies) {
+    const FrameChange a_to_b = bodies.a_to_b();
     tolerance_a = rounded(kCoplanarity * (a.range.radius + b_to_a.scale * b.range.radius));
     tolerance_b = rounded(kCoplanarity * (b.range.radius + a_to_b.scale * a.range.radius));
     // Of the smaller part only: a large one's vertices are far from a plane that is nearly flush.
@@ -307,7 +321,7 @@ struct PartPair {
     const int face_b = classify(b, vertices_a, near_b, sides_a);
     if (face_b >= 0) return static_cast<SeparatingPlane>(-face_b - 1);
     if (sides_a.near_count + sides_b.near_count > 0)
-      flush.find(a, b, b_to_a, rule, is_b_smaller, is_b_smaller ? sides_b : sides_a,
+      flush.find(a, b, b_to_a, bodies.flush_rule(), is_b_smaller, is_b_smaller ? sides_b : sides_a,
                  is_b_smaller ? vertices_b : vertices_a, is_b_smaller ? near_a : near_b);
     return 0;
   }
@@ -341,7 +355,7 @@ struct PartPair {
     FaceSet planes = met.reached;
     if (const std::uint64_t inside = sides(is_of_b).inside(vertices(is_of_b)); inside != 0)
       for (int f = 0; f < part.range.face_count; ++f)
-        if ((part.faces[f].vertices & inside) != 0) planes.add(part.faces[f].plane);
+        if ((part.faces[f].vertices & inside) != 0) planes.add(f);
     return planes;
   }
 
@@ -382,10 +396,13 @@ template <class Integrals>
 TALUS_HD bool integrate_solid(PartPair& pair, Integrals& integrals) {
   SurfaceTriangles triangles;
   bool is_all_here = true;  // in `triangles`; else some have been added
-  const auto hand_on = [&](bool is_of_b) {
-    if (triangles.is_empty()) return;
+  const auto to_frame_of_a = [&](bool is_of_b) {
     triangles.fill_up();
     if (!is_of_b) triangles.move(pair.b_to_a);
+  };
+  const auto hand_on = [&](bool is_of_b) {
+    if (triangles.is_empty()) return;
+    to_frame_of_a(is_of_b);
     integrals.add_surface(triangles, is_of_b);
     triangles.clear();
   };
@@ -404,13 +421,11 @@ TALUS_HD bool integrate_solid(PartPair& pair, Integrals& integrals) {
   ClosingPlanes planes;
   if (is_whole && is_all_here && !triangles.is_empty() && !meeting.is_thin && !pair.is_flush() &&
       planes.find(pair.solid(is_b_first), pair.closing(!is_b_first, meeting), triangles.point(0))) {
-    triangles.fill_up();
-    if (!is_b_first) {
-      triangles.move(pair.b_to_a);
-      planes = planes.moved(pair.b_to_a);
-    }
-    integrals.add_closed(triangles, is_b_first, planes);
-    return true;
+    to_frame_of_a(is_b_first);
+    if (!is_b_first) planes = planes.moved(pair.b_to_a);
+    if (integrals.add_closed(triangles, is_b_first, planes)) return true;
+    integrals.add_surface(triangles, is_b_first);
+    triangles.clear();
   }
   hand_on(is_b_first);
   is_whole &= collect(!is_b_first, pair.bounding(!is_b_first, meeting), unused);
@@ -418,8 +433,8 @@ TALUS_HD bool integrate_solid(PartPair& pair, Integrals& integrals) {
   return is_whole;
 }
 
-/// Sums `Integrals` over the overlap of part a of one body and part b of another. `b_to_a` and `a_to_b` are inverse
-/// frame changes; `rule` of the two bodies; `separating` is the pair's cache. `distance`: of separated parts, that they
+/// Sums `Integrals` over the overlap of part a of one body and part b of another; `separating` is the pair's cache.
+/// `distance`: of separated parts, that they
 /// are apart at least, in a's unscaled frame [m]; 0 where that is not known. `Integrals` provides, where kNeedsDepth
 /// says that depth fields are integrated:
 ///   is_truncated                                whether a piece of a polygon did not fit
@@ -427,21 +442,21 @@ TALUS_HD bool integrate_solid(PartPair& pair, Integrals& integrals) {
 ///   add_surface_a(polygon, plane_a, is_outer, part_b, b_to_a)   a piece of a's surface inside b, polygon in b's frame
 /// else, all in a's frame:
 ///   add_surface(triangles, is_of_b)             one part's surface inside the other; both parts' are added
-///   add_closed(triangles, is_of_b, planes)      one part's surface inside the other, whose planes close it
+///   add_closed(triangles, is_of_b, planes)      one part's surface inside the other, whose planes close it; false, and
+///                                               nothing is added, where rounding asks for both
 /// Cut faces are visited too.
 template <class Integrals>
-TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, const FrameChange& b_to_a,
-                                         const FrameChange& a_to_b, const FlushRule& rule, SeparatingPlane& separating,
-                                         Integrals& integrals, Real& distance) {
+TALUS_HD OverlapStatus integrate_overlap(const PartView& a, const PartView& b, const BodyFrames& bodies,
+                                         SeparatingPlane& separating, Integrals& integrals, Real& distance) {
   distance = 0;
   if (separating != 0) {
-    distance = separating > 0 ? distance_outside(b, a.planes[separating - 1], b_to_a)
-                              : b_to_a.scale * distance_outside(a, b.planes[-separating - 1], a_to_b);
+    distance = separating > 0 ? distance_outside(b, a.planes[separating - 1], bodies.b_to_a)
+                              : distance_outside(a, moved(bodies.b_to_a, b.planes[-separating - 1]));
     if (distance >= 0) return OverlapStatus::separated;
     distance = 0;
   }
-  PartPair pair(a, b, b_to_a);
-  separating = pair.classify_both(a_to_b, rule);
+  PartPair pair(a, b, bodies.b_to_a);
+  separating = pair.classify_both(bodies);
   if (separating != 0) return OverlapStatus::separated;
   bool is_whole;
   if constexpr (Integrals::kNeedsDepth)

@@ -108,8 +108,7 @@ TALUS_HD Vec3 farthest(const Vec3& direction, int block_count, const Block& bloc
 /// How far apart two parts are at least, in a's unscaled frame [m]: between two planes across the line between their
 /// nearest points, which the search may not have reached yet. 0 where they are not apart. Gilbert, Johnson & Keerthi,
 /// IEEE J. Robot. Autom. 4 (1988) 193-203.
-TALUS_HD TALUS_DEVICE_CALL inline Real distance_apart(const PartView& a, const PartView& b,
-                                                      const FrameChange& b_to_a) {
+TALUS_HD TALUS_DEVICE_CALL inline Real distance_apart(const PartView& a, const PartView& b, const FrameChange& b_to_a) {
   constexpr int kMostSteps = 16;
   constexpr Real kGoodShare = Real(0.8);  // of the distance of the points found
   PartVertices vertices_b;

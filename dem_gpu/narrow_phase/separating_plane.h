@@ -13,18 +13,24 @@ namespace dem_gpu {
 /// bodies changes little in a step, so trying it first settles most separated pairs.
 using SeparatingPlane = std::int16_t;
 
-/// How far outside the plane, given in the frame that `to_plane` leads to, all vertices of `part` lie, in that frame's
-/// lengths [m]; negative if one lies inside.
-TALUS_HD TALUS_DEVICE_CALL inline Real distance_outside(const PartView& part, const HalfSpace& plane,
-                                                        const FrameChange& to_plane) {
-  // The plane in the part's own frame: one transformation instead of one per vertex.
-  const HalfSpace own{to_plane.scale * transpose_times(to_plane.rotation, plane.normal),
-                      plane.offset - dot(plane.normal, to_plane.translation)};
+/// How far outside a plane in its own frame all vertices of a part lie [m]; negative if one lies inside.
+TALUS_HD TALUS_DEVICE_CALL inline Real distance_outside(const PartView& part, const HalfSpace& plane) {
   const int blocks = (part.range.vertex_count + kLanes - 1) / kLanes;
-  Real deepest = -std::numeric_limits<Real>::max();
-  for (int i = 0; i < blocks; ++i)
-    deepest = std::max(deepest, greatest_lane(depths_below(own, widened(load_points(part.vertex_blocks[i])))));
-  return -deepest;
+  WideLanes deepest = depths_below(plane, widened(load_points(part.vertex_blocks[0])));
+  for (int i = 1; i < blocks; ++i)
+    deepest = greatest(deepest, depths_below(plane, widened(load_points(part.vertex_blocks[i]))));
+  return -greatest_lane(deepest);
+}
+/// The same for a plane in the frame that `to_plane` leads to, in that frame's lengths. The plane in the part's own
+/// frame takes one transformation instead of one per vertex.
+TALUS_HD inline Real distance_outside(const PartView& part, const HalfSpace& plane, const FrameChange& to_plane) {
+  return distance_outside(part, {to_plane.scale * transpose_times(to_plane.rotation, plane.normal),
+                                 plane.offset - dot(plane.normal, to_plane.translation)});
+}
+/// A plane of another frame, from which `change` leads here.
+TALUS_HD inline HalfSpace moved(const FrameChange& change, const HalfSpace& plane) {
+  const Vec3 normal = change.direction(plane.normal);
+  return {normal, change.scale * plane.offset + dot(normal, change.translation)};
 }
 
 /// Planes within this distance, over the size of the two parts, count as one: above the rounding of vertices and planes
@@ -96,36 +102,65 @@ TALUS_HD inline std::uint64_t vertices_near(const LocalHalfSpace& plane, const P
   return touching & vertices.all();
 }
 
-/// Sorts the vertices (in the solid's frame) by the solid's planes, after Cohen and Sutherland's outcodes, and finds
-/// the planes that three of them and more are nearer to than `near` [m]. Returns a face whose plane has all vertices in
-/// front, or -1.
-TALUS_HD TALUS_DEVICE_CALL inline int classify(const PartView& solid, const PartVertices& vertices, LocalReal near,
+/// Of a set of vertices, those in front of a plane and those nearer to it than some distance: bit v for vertex v.
+struct PlaneSets {
+  std::uint64_t in_front = 0, near = 0;
+};
+
+/// Vertices by one plane after the other. kBlocks: how many eights they are, so that they stay in registers; 0 for any
+/// number.
+template <int kBlocks>
+class VerticesByPlane {
+ public:
+  TALUS_HD VerticesByPlane(const PartVertices& vertices, LocalReal near)
+      : vertices_(vertices), near_squared_(every_lane<Lanes>(near * near)) {
+    TALUS_UNROLL for (int i = 0; i < kBlocks; ++i) block_[i] = vertices.block(i);
+  }
+  TALUS_HD TALUS_INLINE PlaneSets operator()(const LocalHalfSpace& plane) const {
+    PlaneSets sets;
+    if constexpr (kBlocks > 0) {
+      TALUS_UNROLL for (int i = 0; i < kBlocks; ++i) add(plane, block_[i], i, sets);
+    } else {
+      for (int i = 0; i < vertices_.block_count(); ++i) add(plane, vertices_.block(i), i, sets);
+    }
+    sets.in_front &= vertices_.all();
+    sets.near &= vertices_.all();
+    return sets;
+  }
+
+ private:
+  TALUS_HD TALUS_INLINE void add(const LocalHalfSpace& plane, const LaneVec3& points, int i, PlaneSets& sets) const {
+    const Lanes depth = depths_below(plane, points);
+    sets.in_front |= std::uint64_t{lanes_above(Lanes{}, depth)} << (i * kLanes);
+    sets.near |= std::uint64_t{lanes_above(near_squared_, depth * depth)} << (i * kLanes);
+  }
+
+  const PartVertices& vertices_;
+  Lanes near_squared_;
+  LaneVec3 block_[kBlocks > 0 ? kBlocks : 1];
+};
+
+/// See classify.
+template <int kBlocks>
+TALUS_HD TALUS_DEVICE_CALL int classify_blocks(const PartView& solid, const PartVertices& vertices, LocalReal near,
                                                PlaneSides& sides) {
+  const VerticesByPlane<kBlocks> sort(vertices, near);
   const std::uint64_t all = vertices.all();
-  const Lanes near_squared = every_lane<Lanes>(near * near);
   int cutting = 0, near_count = 0, most_in_front = 0, best = 0;
   for (int f = 0; f < solid.range.face_count; ++f) {
-    const LocalHalfSpace plane = solid.planes[f];
-    std::uint64_t in_front = 0, touching = 0;
-    for (int i = 0; i < vertices.block_count(); ++i) {
-      const Lanes depth = depths_below(plane, vertices.block(i));
-      in_front |= std::uint64_t{lanes_above(Lanes{}, depth)} << (i * kLanes);
-      touching |= std::uint64_t{lanes_above(near_squared, depth * depth)} << (i * kLanes);
-    }
-    in_front &= all;
-    if (in_front == all) return f;
-    touching &= all;
-    if (touching != 0) {
+    const PlaneSets sets = sort(solid.planes[f]);
+    if (sets.in_front == all) return f;
+    if (sets.near != 0) {
       // Three bits and more: clearing the lowest two leaves some.
-      const std::uint64_t without_lowest = touching & (touching - 1);
+      const std::uint64_t without_lowest = sets.near & (sets.near - 1);
       if ((without_lowest & (without_lowest - 1)) != 0) sides.near[near_count++] = static_cast<std::uint8_t>(f);
     }
-    sides.outside[cutting] = in_front;
+    sides.outside[cutting] = sets.in_front;
     sides.plane[cutting] = static_cast<std::uint8_t>(f);
-    const int count = count_bits(in_front);
+    const int count = count_bits(sets.in_front);
     best = count > most_in_front ? cutting : best;
     most_in_front = count > most_in_front ? count : most_in_front;
-    cutting += static_cast<int>(in_front != 0);
+    cutting += static_cast<int>(sets.in_front != 0);
   }
   sides.plane_count = cutting;
   sides.near_count = near_count;
@@ -140,6 +175,17 @@ TALUS_HD TALUS_DEVICE_CALL inline int classify(const PartView& solid, const Part
     sides.plane[0] = plane;
   }
   return -1;
+}
+
+/// Sorts the vertices (in the solid's frame) by the solid's planes, after Cohen and Sutherland's outcodes, and finds
+/// the planes that three of them and more are nearer to than `near` [m]. Returns a face whose plane has all vertices in
+/// front, or -1.
+TALUS_HD inline int classify(const PartView& solid, const PartVertices& vertices, LocalReal near, PlaneSides& sides) {
+#if !defined(__CUDACC__)
+  if (vertices.block_count() == 1) return classify_blocks<1>(solid, vertices, near, sides);
+  if (vertices.block_count() == 2) return classify_blocks<2>(solid, vertices, near, sides);
+#endif
+  return classify_blocks<0>(solid, vertices, near, sides);
 }
 
 }  // namespace dem_gpu

@@ -30,10 +30,13 @@ struct VolumeIntegralsOf {
   Sums patch;  // of the area
 
   /// Adds the overlap of two parts from one part's surface inside the other alone, which these planes close. All in
-  /// a's frame; `is_of_b`: the surface is b's.
-  TALUS_HD void add_closed(const SurfaceTriangles& surface, bool is_of_b, const ClosingPlanes& planes) {
+  /// a's frame; `is_of_b`: the surface is b's. False, and nothing is added, in single precision where the overlap is a
+  /// thin slice of the pyramids.
+  TALUS_HD bool add_closed(const SurfaceTriangles& surface, bool is_of_b, const ClosingPlanes& planes) {
     const Vec3 apex = LocalVec3(rounded(planes.apex)), weight = planes.dual_of_outer();
     const SurfaceSums sums = sums_over(surface, apex, weight);
+    if (kIsSingle && sums.volume < kThinSlice * sums.pyramids) return false;
+    if (!has_reference) reference = surface.point(0), has_reference = true;
     add_volume(sums, apex);
     add_force_side(sums, apex, is_of_b ? -1 : 1);
     if constexpr (kHasPatch) {
@@ -44,6 +47,7 @@ struct VolumeIntegralsOf {
       add_patch_moments(apex, sums.outer_area + area_of_caps, sums.area_first + sums.volume * weight,
                         sums.area_second + 2 * dot(weight, sums.first_moment));
     }
+    return true;
   }
 
   /// Adds one part's surface inside the other; the other part's must be added too.
@@ -94,9 +98,14 @@ struct VolumeIntegralsOf {
   }
 
  private:
+  static constexpr bool kIsSingle = sizeof(LocalReal) < sizeof(Real);
+  /// Share of the pyramids that the overlap is at least: of a thinner slice the moments are lost in their rounding.
+  static constexpr Real kThinSlice = Real(0.1);
+
   /// Sums over one part's surface inside the other, x from an apex; pyramids are those from there to the surface.
   struct SurfaceSums {
     Real volume;             // of the pyramids [m3]
+    Real pyramids = 0;       // in single precision: the sum of their absolute volumes [m3]
     Vec3 area, area_moment;  // integrals of n dA [m2] and x cross n dA [m3]
     Vec3 first_moment;       // of the pyramids [m4]
     Mat3 second_moment;      // [m5]
@@ -111,7 +120,7 @@ struct VolumeIntegralsOf {
   TALUS_HD static TALUS_INLINE SurfaceSums sums_over(const SurfaceTriangles& surface, const Vec3& apex,
                                                      const Vec3& weight) {
     const LocalVec3 origin = rounded(apex), along = rounded(weight);
-    WideLanes volumes[kLanes]{}, seconds[kLanes]{}, patches[kLanes]{};
+    WideLanes volumes[kLanes]{}, seconds[kLanes]{}, patches[kLanes]{}, pyramids{};
     for (int block = 0; block < surface.block_count(); ++block) {
       const LaneVec3 a = surface.corners(0, block) - origin, b = surface.corners(1, block) - origin,
                      c = surface.corners(2, block) - origin, sum = a + b + c;
@@ -126,6 +135,7 @@ struct VolumeIntegralsOf {
       const auto product = [&](const Lanes& ai, const Lanes& aj, const Lanes& bi, const Lanes& bj, const Lanes& ci,
                                const Lanes& cj, const Lanes& si,
                                const Lanes& sj) { return share * (ai * aj + bi * bj + ci * cj + si * sj); };
+      if constexpr (kIsSingle) pyramids += widened(greatest(pyramid, Lanes{} - pyramid));
       add(volumes, pyramid, area, first);
       volumes[7] += widened(moment.x);
       const Lanes xy = product(a.x, a.y, b.x, b.y, c.x, c.y, sum.x, sum.y);
@@ -142,6 +152,7 @@ struct VolumeIntegralsOf {
     }
     const WideLanes v = sums_of_lanes(volumes), s = sums_of_lanes(seconds);
     SurfaceSums sums{v[0],
+                     kIsSingle ? sum_of_lanes(pyramids) : 0,
                      {v[1], v[2], v[3]},
                      {v[7], s[0], s[7]},
                      {v[4], v[5], v[6]},
@@ -172,7 +183,6 @@ struct VolumeIntegralsOf {
   }
 
   TALUS_HD void add_volume(const SurfaceSums& sums, const Vec3& apex) {
-    if (!has_reference) reference = apex, has_reference = true;
     const Vec3 shift = apex - reference, first = sums.first_moment, moved = first + sums.volume * shift;
     volume += sums.volume;
     first_moment += moved;

@@ -99,16 +99,16 @@ ConvexPart moved(const ConvexPart& part, const Point& centre, const catalog::Mat
 void check_partition(const Shape& shape) {
   const HostShapeColumns columns = make_host_shape_columns({shape}, std::nullopt);
   const ShapeView shapes = view(columns);
-  const FrameChange same{{}, {}, 1};
+  const Pose as_it_is{};
   const Real radius = columns.shapes[0].bounding_radius;
-  const FlushRule rule = FlushRule::of(radius, radius, {});
+  const BodyFrames same(as_it_is, as_it_is, radius, radius);
   Real shared = 0;
   for (int i = 0; i < columns.shapes[0].part_count; ++i)
     for (int j = i + 1; j < columns.shapes[0].part_count; ++j) {
       VolumeIntegrals integrals;
       SeparatingPlane separating = 0;
       Real distance = 0;
-      integrate_overlap(part_view(shapes, i), part_view(shapes, j), same, same, rule, separating, integrals, distance);
+      integrate_overlap(part_view(shapes, i), part_view(shapes, j), same, separating, integrals, distance);
       shared += std::max(Real(0), integrals.volume);
     }
   if (shared > kLargestOverlap * shape.volume)

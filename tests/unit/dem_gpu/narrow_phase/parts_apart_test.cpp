@@ -81,10 +81,8 @@ TEST(DistanceApart, IsAtMostTheDistanceAndMostOfIt) {
       EXPECT_GE(found, 0.8 * distance - 1e-9 - kSingle.position);
       ++apart;
       bool is_by_face = false;
-      for (int f = 0; f < a.range.face_count; ++f)
-        is_by_face |= distance_outside(b, a.planes[f], b_to_a) > 0;
-      for (int f = 0; f < b.range.face_count; ++f)
-        is_by_face |= distance_outside(a, b.planes[f], a_to_b) > 0;
+      for (int f = 0; f < a.range.face_count; ++f) is_by_face |= distance_outside(b, a.planes[f], b_to_a) > 0;
+      for (int f = 0; f < b.range.face_count; ++f) is_by_face |= distance_outside(a, b.planes[f], a_to_b) > 0;
       edge_on_edge += !is_by_face;
     }
   }
@@ -94,7 +92,8 @@ TEST(DistanceApart, IsAtMostTheDistanceAndMostOfIt) {
 
 TEST(DistanceApart, OfBodiesIsThatOfTheirNearestParts) {
   std::mt19937 random(43);
-  const PairIntegrals whole({unit_cube()}, {unit_cube()}), parts(cut_box({1, 1, 1}, {2, 2, 1}), cut_box({1, 1, 1}, {1, 2, 2}));
+  const PairIntegrals whole({unit_cube()}, {unit_cube()}),
+      parts(cut_box({1, 1, 1}, {2, 2, 1}), cut_box({1, 1, 1}, {1, 2, 2}));
   const auto of = [](const PairIntegrals& pair, const Placed& a, const Placed& b) {
     return dem_gpu::distance_of_bodies(view(pair.columns()), 0, 1, a.pose(), b.pose());
   };
