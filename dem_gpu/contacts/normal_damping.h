@@ -92,16 +92,6 @@ TALUS_HD TALUS_ONE_COPY NormalKick<Real> orbit_in_substeps(const NormalStart<Rea
   return {orbit.kick, orbit.has_parted ? orbit.kick : orbit.shift / step};
 }
 
-template <class Law>
-TALUS_HD NormalKick<Real> orbit_kick(const NormalStart<Real>& start, Real step, bool is_first) {
-  NormalSeries<Law, Real> series;
-  if (!is_first) {
-    const NormalKick<Real> kick = series.advance(start, step);
-    if (bits_of(series.is_good()) != 0) return kick;
-  }
-  return orbit_in_substeps<Law>(start, step, is_first);
-}
-
 /// What a sphere contact is at as a step ends, along its normal.
 struct SphereMotion {
   NormalStart<Real> start;  // of the orbit; if the contact has just begun, by others: turning alone
@@ -155,11 +145,23 @@ TALUS_HD auto is_left_to_verlet(const Number& damping, const Number& adhesion, c
   return (damping == Real(0)) & (adhesion == Real(0)) & (rate * step < (Law::kExponent > 1 ? 0 : kFineElasticStep));
 }
 
+/// Of a contact that is neither let go nor taken by the series.
+template <class Law>
+TALUS_HD SphereKick substep_kick(const SphereMotion& motion, Real step) {
+  if (motion.is_left_to_verlet) return elastic_kick(motion, step);
+  const NormalKick<Real> orbit = orbit_in_substeps<Law>(motion.start, step, motion.is_first);
+  return {motion.owed + orbit.mean, orbit.kick - orbit.mean};
+}
+
 template <class Law>
 TALUS_HD TALUS_ONE_COPY SphereKick sphere_kick(const SphereMotion& motion, Real step) {
-  if (motion.is_left_to_verlet) return elastic_kick(motion, step);
-  const NormalKick<Real> orbit = orbit_kick<Law>(motion.start, step, motion.is_first);
-  return {motion.owed + orbit.mean, orbit.kick - orbit.mean};
+  if (!motion.is_first && !motion.is_left_to_verlet) {
+    if (is_let_go(motion.start, step)) return {motion.owed, 0};
+    NormalSeries<Law, Real> series;
+    const NormalKick<Real> orbit = series.advance(motion.start, step);
+    if (bits_of(series.is_good()) != 0) return {motion.owed + orbit.mean, orbit.kick - orbit.mean};
+  }
+  return substep_kick<Law>(motion, step);
 }
 
 /// The same dashpot for the power law F ~ depth^n of a sphere law, integrated within the step: restitution does not

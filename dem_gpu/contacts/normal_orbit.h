@@ -60,8 +60,8 @@ struct NormalOrbit {
       const Real end = duration * (is_first ? share * share * share * share : share);
       const Point after = stepped(point, begin, end - begin);
       if (has_let_go(end, after)) {
-        const Real held = time_to_release(point, begin, end - begin);
-        point = stepped(point, begin, held);
+        const Real held = time_to_release(point, begin, after, end - begin);
+        if (held > 0) point = stepped(point, begin, held);
         point.shift += point.kick * (duration - begin - held);
         has_parted = depth(duration, point) <= 0;
         break;
@@ -105,11 +105,13 @@ struct NormalOrbit {
     return force.elastic * (force.is_hertz ? r * std::sqrt(root) : r) + force.damping * speed(time, p);
   }
 
-  /// From the start of the sub-step, of length h, at whose end it has let go [s]: regula falsi that halves the value at
-  /// the end that stays (Dowell & Jarratt, BIT 11 (1971) 168-174).
-  TALUS_HD Real time_to_release(const Point& p, Real time, Real h) const {
+  /// From the start of the sub-step, of length h, at whose end, `after`, it has let go [s]: regula falsi that halves
+  /// the value at the end that stays (Dowell & Jarratt, BIT 11 (1971) 168-174).
+  TALUS_HD Real time_to_release(const Point& p, Real time, const Point& after, Real h) const {
     Real low = 0, high = h;
-    Real at_low = hold(time, p), at_high = hold(time + h, stepped(p, time, h));
+    Real at_low = hold(time, p), at_high = hold(time + h, after);
+    // It let go in a step before, and faces that part too fast for the spring still overlap.
+    if (at_low <= 0 && speed(time, p) < 0) return 0;
     const Real small = kReleaseTolerance * (std::abs(at_low) + std::abs(at_high));
     int side = 0;  // that moved last
     for (int i = 0; i < kMostReleaseSteps && high - low > kReleaseTolerance * h; ++i) {

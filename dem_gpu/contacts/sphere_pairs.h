@@ -149,9 +149,10 @@ TALUS_HD void find_push(const ContactScene& scene, const LastContact& last, cons
                                      response.adhesion * inverse_mass};
   NormalSeries<Law, RealLanes> series;
   const NormalKick<RealLanes> orbit = series.advance(start, step);
-  RealLanes taken = owed + orbit.mean;
-  response.owed = orbit.kick - orbit.mean;
-  const unsigned is_other = ~bits_of(series.is_good()) | bits_of(is_first) | bits_of(is_verlet);
+  const auto is_pressed = !is_let_go(start, step);
+  RealLanes taken = owed + select(is_pressed, orbit.mean, RealLanes{});
+  response.owed = select(is_pressed, orbit.kick - orbit.mean, RealLanes{});
+  const unsigned is_other = (bits_of(is_pressed) & ~bits_of(series.is_good())) | bits_of(is_first) | bits_of(is_verlet);
   for (int i = 0; i < kRealLanes; ++i) {
     if ((is_other >> i & 1) == 0) continue;
     const SphereMotion motion{
@@ -161,7 +162,7 @@ TALUS_HD void find_push(const ContactScene& scene, const LastContact& last, cons
         lane(owed, i),
         (bits_of(is_first) >> i & 1) != 0,
         (bits_of(is_verlet) >> i & 1) != 0};
-    const SphereKick kick = sphere_kick<Law>(motion, step);
+    const SphereKick kick = substep_kick<Law>(motion, step);
     lane(taken, i) = kick.taken;
     lane(response.owed, i) = kick.owed;
   }

@@ -91,6 +91,21 @@ TYPED_TEST(NormalSeriesTest, IsNotTakenForAContactThatLetsGoInTheStep) {
   EXPECT_GT(parted, 1000);
 }
 
+TYPED_TEST(NormalSeriesTest, WhatIsLetGoHasNoForceInSubsteps) {
+  std::mt19937 random(8);
+  int let_go = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Drawn<TypeParam> contact = drawn<TypeParam>(random);
+    contact.start.speed -= contact.start.depth;
+    if (!is_let_go(contact.start, contact.step)) continue;
+    ++let_go;
+    const NormalKick<Real> found = in_substeps(contact);
+    EXPECT_EQ(found.kick, 0);
+    EXPECT_EQ(found.mean, 0);
+  }
+  EXPECT_EQ(let_go > 500, !TypeParam::kIsAdhesive);
+}
+
 TYPED_TEST(NormalSeriesTest, LanesFindWhatASingleContactFinds) {
   std::mt19937 random(7);
   for (int i = 0; i < 200; ++i) {
