@@ -30,10 +30,10 @@ struct ComputeSpherePairs {
     if (touching.count == 0) return;
     touching.fill_last_block();
     PeakLanes peaks;
+    SphereTouch touch;
+    SphereResponse response;
     for (int first = 0; first < touching.count; first += kRealLanes) {
       const PairRows rows = touching.rows(first);
-      SphereTouch touch;
-      SphereResponse response;
       respond_to_touch<Law, Friction>(law, scene, spheres, rows, touch, response);
       if constexpr (Record::kEnabled)
         for (int i = 0; i < kRealLanes && first + i < touching.count; ++i) record(rows, i, touch, response);

@@ -65,7 +65,7 @@ TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void respond_to_wall(const Law& law, c
   SphereRow spheres[kRealLanes];
   RowLanes here;
   for (int i = 0; i < kRealLanes; ++i) {
-    spheres[i] = SphereRow::of(scene.bodies, rows.a[i]);
+    spheres[i].fill(scene.bodies, rows.a[i]);
     here.row[i] = i;
   }
   const SphereLanes a = SphereLanes::of(spheres, here);
@@ -98,13 +98,13 @@ struct ComputeSphereWalls {
     if (touching.count == 0) return;
     touching.fill_last_block();
     PeakLanes peaks;
+    SphereTouch touch;
+    SphereResponse response;
     for (int first = 0; first < touching.count; first += kRealLanes) {
       const PairRows rows = touching.rows(first);
       const int count = touching.count - first < kRealLanes ? touching.count - first : kRealLanes;
       WallLanes walls;
       for (int i = 0; i < kRealLanes; ++i) walls.set(i, gap[first + (i < count ? i : count - 1)]);
-      SphereTouch touch;
-      SphereResponse response;
       respond_to_wall<Law, Friction>(law, scene, rows, walls, touch, response);
       if constexpr (Record::kEnabled)
         for (int i = 0; i < count; ++i) record(rows, i, touch, response);
