@@ -115,6 +115,7 @@ void CellGrid::build(const BodyView& bodies, Real skin) {
   }
   // Whole registers are read from any entry on.
   const std::size_t padded = n + kRealLanes;
+  cell_.resize(padded, kNoCell);
   for (DeviceVector<Real>* column : {&x_, &y_, &z_, &reach_}) column->resize(padded);
   parallel_for(0, count_,
                CopyEntry{bodies, pointer(body_), skin, pointer(x_), pointer(y_), pointer(z_), pointer(reach_)});

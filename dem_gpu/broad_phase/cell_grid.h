@@ -2,6 +2,7 @@
 #pragma once
 
 #include "dem_gpu/bodies/body_columns.h"
+#include "dem_gpu/core/lanes.h"
 #include "dem_gpu/core/parallel.h"
 #include "dem_gpu/core/real_lanes.h"
 
@@ -28,7 +29,7 @@ class CellGrid {
   };
 
   struct View {
-    const std::int64_t* cell;  // of each entry, ascending, n_active used
+    const std::int64_t* cell;  // of each entry, ascending, n_active used, then at least kRealLanes above all cells
     const int* body;           // of each entry
     const Real *x, *y, *z;     // of each entry [m]
     const Real* reach;         // of each entry: bounding radius + half the skin [m]
@@ -101,7 +102,7 @@ class NeighbourSearch {
     constexpr int kSteps = 8;
     if (first >= 0)
       for (int step = 0; step < kSteps; ++step, ++first)
-        if (first == grid_.count || grid_.cell[first] >= cell) return first;
+        if (grid_.cell[first] >= cell) return first;
     first = first < 0 ? 0 : first;
     return first + lower_bound(grid_.cell + first, grid_.count - first, cell);
   }
@@ -109,12 +110,12 @@ class NeighbourSearch {
   template <class Visitor>
   TALUS_HD TALUS_ALL_INLINED void visit_run(int entry, int first, std::int64_t last_cell, Visitor& visitor) const {
     const Real x = grid_.x[entry], y = grid_.y[entry], z = grid_.z[entry], reach = grid_.reach[entry];
-    for (int k = first; k < grid_.count && grid_.cell[k] <= last_cell; k += kRealLanes) {
+    for (int k = first; grid_.cell[k] <= last_cell; k += kRealLanes) {
       const RealLanes dx = load_lanes_at(grid_.x + k) - x, dy = load_lanes_at(grid_.y + k) - y,
                       dz = load_lanes_at(grid_.z + k) - z, sum = load_lanes_at(grid_.reach + k) + reach;
-      unsigned near = bits_of(dx * dx + dy * dy + dz * dz < sum * sum);
-      for (int other = k; near != 0; near >>= 1, ++other)
-        if ((near & 1) != 0 && other < grid_.count && grid_.cell[other] <= last_cell) visitor(other);
+      unsigned near = bits_of(dx * dx + dy * dy + dz * dz < sum * sum) &
+                      bits_of(load_lanes_at(grid_.cell + k) <= last_cell);
+      for (; near != 0; near &= near - 1) visitor(k + lowest_bit(near));
     }
   }
 

@@ -37,6 +37,7 @@ using RealLanes = Real;
 TALUS_HD inline Real& lane(RealLanes& a, int /*i*/) { return a; }
 TALUS_HD inline Real lane(const RealLanes& a, int /*i*/) { return a; }
 TALUS_HD inline RealLanes load_lanes_at(const Real* values) { return *values; }
+TALUS_HD inline std::int64_t load_lanes_at(const std::int64_t* values) { return *values; }
 TALUS_HD inline void store_lanes_at(const RealLanes& a, Real* values) { *values = a; }
 
 #else
@@ -50,6 +51,7 @@ inline constexpr int kRealLanes = 2;
 #endif
 using RealLanes = Real __attribute__((vector_size(kRealLanes * sizeof(Real))));
 using LaneMask = decltype(RealLanes{} < RealLanes{});
+using KeyLanes = std::int64_t __attribute__((vector_size(kRealLanes * sizeof(std::int64_t))));
 using LongLanes = long long __attribute__((vector_size(kRealLanes * sizeof(long long))));
 
 inline RealLanes select(const LaneMask& mask, const RealLanes& first, const RealLanes& second) {
@@ -63,6 +65,11 @@ inline Real& lane(RealLanes& a, int i) { return reinterpret_cast<Real*>(&a)[i]; 
 inline Real lane(const RealLanes& a, int i) { return reinterpret_cast<const Real*>(&a)[i]; }
 inline RealLanes load_lanes_at(const Real* values) {
   RealLanes lanes;
+  __builtin_memcpy(&lanes, values, sizeof(lanes));
+  return lanes;
+}
+inline KeyLanes load_lanes_at(const std::int64_t* values) {
+  KeyLanes lanes;
   __builtin_memcpy(&lanes, values, sizeof(lanes));
   return lanes;
 }
