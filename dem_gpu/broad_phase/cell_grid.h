@@ -113,8 +113,8 @@ class NeighbourSearch {
     for (int k = first; grid_.cell[k] <= last_cell; k += kRealLanes) {
       const RealLanes dx = load_lanes_at(grid_.x + k) - x, dy = load_lanes_at(grid_.y + k) - y,
                       dz = load_lanes_at(grid_.z + k) - z, sum = load_lanes_at(grid_.reach + k) + reach;
-      unsigned near = bits_of(dx * dx + dy * dy + dz * dz < sum * sum) &
-                      bits_of(load_lanes_at(grid_.cell + k) <= last_cell);
+      unsigned near =
+          bits_of(dx * dx + dy * dy + dz * dz < sum * sum) & bits_of(load_lanes_at(grid_.cell + k) <= last_cell);
       for (; near != 0; near &= near - 1) visitor(k + lowest_bit(near));
     }
   }
