@@ -152,6 +152,13 @@ class QuadSum {
 
  public:
   TALUS_HD Vec3 vector() const { return {sum_[0], sum_[1], sum_[2]}; }
+  /// Number by number: a vector put together elsewhere is copied in wider pieces than it was written in, for which
+  /// processors wait.
+  TALUS_HD void store(Vec3& to) const {
+    to.x = sum_[0];
+    to.y = sum_[1];
+    to.z = sum_[2];
+  }
 };
 
 }  // namespace dem_gpu

@@ -41,8 +41,8 @@ struct GatherForces {
     }
     const Vec3 force = force_sum.vector(), torque = torque_sum.vector();
     bodies.contact_share[i] = Real(1) / (touching > 1 ? touching : 1);
-    bodies.force[i] = force;
-    bodies.torque[i] = torque;
+    force_sum.store(bodies.force[i]);
+    torque_sum.store(bodies.torque[i]);
     const Real half = time_step / 2;
     bodies.velocity[i] += (half * bodies.inverse_mass[i]) * force;
     const Vec3 kick = half * rotate_back(bodies.orientation[i], torque), inertia = bodies.inertia[i];
