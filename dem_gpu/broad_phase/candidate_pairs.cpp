@@ -49,6 +49,10 @@ TALUS_HD bool is_near_wall(const ShapeView& shapes, const MeshView& meshes, cons
   return field.depth > -reach && field.from_base > -reach && field.from_top > -reach;
 }
 
+/// Candidate pairs that a range of grid entries has room for while its pairs are counted: most ranges are searched
+/// once. On the GPU, where each entry is a range of its own, a second search costs less than the memory.
+constexpr int kRoom = kRangeLength > 1 ? 8 * kRangeLength : 0;
+
 /// Counts (keys == nullptr) or writes the candidate pairs of a range of grid entries: of bodies with each other or with
 /// ghosts, and with walls. A sphere meets every ghost of a polyhedron.
 struct ListPairs {
@@ -59,21 +63,35 @@ struct ListPairs {
   CellGrid::View grid;
   const WallRecord* walls;
   int wall_count;
-  int* first;  // of each range
+  int* first;         // of each range
+  ContactKey* found;  // by the count, as far as there is room; kRoom each range
   ContactKey* keys;
 
   TALUS_HD void operator()(int begin, int end) const {
-    int& at = first[begin / kRangeLength];
-    ContactKey* out = keys ? keys + at : nullptr;
+    const int range = begin / kRangeLength;
+    ContactKey* const room = found + static_cast<std::ptrdiff_t>(range) * kRoom;
+    if (!keys) {
+      first[range] = search(begin, end, room, kRoom);
+      return;
+    }
+    const int count = first[range + 1] - first[range];
+    if (count > kRoom)
+      search(begin, end, keys + first[range], count);
+    else
+      for (int k = 0; k < count; ++k) keys[first[range] + k] = room[k];
+  }
+
+  /// Number of pairs; the first `room` are written.
+  TALUS_HD int search(int begin, int end, ContactKey* out, int room) const {
     int count = 0;
     const auto add = [&](ContactKey key) {
-      if (out) out[count] = key;
+      if (count < room) out[count] = key;
       ++count;
     };
-    NeighbourSearch search(grid);
+    NeighbourSearch neighbours(grid);
     for (int entry = begin; entry < end; ++entry) {
       const int i = grid.body[entry];
-      search.visit(entry, [&](int other) {
+      neighbours.visit(entry, [&](int other) {
         const int j = grid.body[other];
         if (is_pair(i, j)) add(pair_key(shapes.shapes, bodies.shape, i, j));
       });
@@ -83,7 +101,7 @@ struct ListPairs {
         if (is_near_wall(shapes, meshes, walls[w], bodies.position[i], reach))
           add(wall_key(shapes.shapes, bodies.shape[i], walls[w], i, w));
     }
-    if (!keys) at = count;
+    return count;
   }
 
   /// Of the ghosts a pair could be met at, it is met at the one: of the body of higher index, of the polyhedron.
@@ -106,9 +124,18 @@ DeviceVector<ContactKey> candidate_keys(const Model& model, State& state) {
   CellGrid grid;
   grid.build(bodies, state.skin);
   const int entries = grid.view().count;
-  DeviceVector<int> first(static_cast<std::size_t>(range_count(entries)) + 1, 0);
-  ListPairs list{bodies,      ghost_view(model, state), view(model.shapes.columns), view(model.meshes),
-                 grid.view(), state.walls.device(),     state.walls.count(),        pointer(first),
+  const auto ranges = static_cast<std::size_t>(range_count(entries));
+  DeviceVector<int> first(ranges + 1, 0);
+  DeviceVector<ContactKey> found(ranges * kRoom);
+  ListPairs list{bodies,
+                 ghost_view(model, state),
+                 view(model.shapes.columns),
+                 view(model.meshes),
+                 grid.view(),
+                 state.walls.device(),
+                 state.walls.count(),
+                 pointer(first),
+                 pointer(found),
                  nullptr};
   parallel_for_ranges(0, entries, list);
   DeviceVector<ContactKey> keys(static_cast<std::size_t>(exclusive_scan(first)));

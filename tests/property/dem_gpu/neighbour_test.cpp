@@ -57,6 +57,29 @@ TEST(NeighbourList, FindsAllTouchingSpheres) {
   EXPECT_GT(simulation.quality().list_rebuilds, 1);
 }
 
+TEST(NeighbourList, FindsAllTouchingInACrowd) {
+  // Bodies that fly to one place: more pairs each than the list has room for at its first search.
+  Scene scene = empty_scene(1, 0);
+  scene.sphere_law = dem_gpu::LinearSpring{0.1};  // soft: they pass through one another
+  scene.shapes = {dem_gpu::sphere_shape("ball", 0.01)};
+  scene.run.time_step = 4e-4;
+  constexpr int kSide = 7, kCount = kSide * kSide * kSide, kSteps = 200;
+  for (int i = 0; i < kCount; ++i) {
+    const Vec3 place = 0.021 * Vec3{Real(i % kSide), Real(i / kSide % kSide), Real(i / kSide / kSide)};
+    scene.bodies.push_back(body_at(0, place, {}, -1 / (kSteps * scene.run.time_step) * place));
+  }
+  Simulation simulation(scene);
+  simulation.advance(7 * kSteps / 10);
+  const auto now = simulation.snapshot();
+  Pairs expected;
+  for (int i = 0; i < kCount; ++i)
+    for (int j = i + 1; j < kCount; ++j)
+      if (norm(now.position[i] - now.position[j]) < 0.02) expected.insert({i, j});
+  EXPECT_GT(expected.size(), 20u * kCount);
+  EXPECT_EQ(found(now), expected);
+  EXPECT_EQ(now.contacts.size(), expected.size()) << "each once";
+}
+
 TEST(NeighbourList, FindsAllTouchingAcrossTheFacesOfABox) {
   // In boxes from the narrowest allowed on; each pair once, at its nearest images.
   std::mt19937 random(33);
