@@ -20,7 +20,7 @@ struct SphereRow {
   Real none = 0;
 
   /// Member by member: a row put together elsewhere would be copied in wider pieces than it was written in, for which
-  /// processors wait (a twentieth of the S1 drum's time).
+  /// processors wait (3 % of the S1 drum's time).
   TALUS_HD void fill(const BodyView& bodies, int i) {
     position = bodies.position[i];
     radius = bodies.bounding_radius[i];
