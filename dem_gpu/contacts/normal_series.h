@@ -20,8 +20,8 @@ struct NormalStart {
 /// The faces part too fast for the spring to follow all through the step: overlap is left, and no force.
 template <class Number>
 TALUS_HD auto is_let_go(const NormalStart<Number>& start, Real step) {
-  const Number least_speed = start.speed + step * larger(Number{}, start.acceleration);
-  return (start.elastic + start.damping * least_speed <= Real(0)) & (start.adhesion == Real(0));
+  const Number fastest = start.speed + step * larger(Number{}, start.acceleration);
+  return (start.elastic + start.damping * fastest <= Real(0)) & (start.adhesion == Real(0));
 }
 
 /// What a step along the orbit takes of the approach speed.

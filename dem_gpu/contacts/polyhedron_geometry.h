@@ -38,7 +38,8 @@ TALUS_HD inline Real smaller_diameter(const ShapeView& shapes, int shape_a, int 
                   b.scale * shapes.shapes[shape_b].equivalent_diameter);
 }
 
-/// Of a pair of bodies: whether no polygon was truncated, and how far they are apart at least, 0 if they may touch [m].
+/// Of a pair of bodies: whether no polygon was truncated, and how far they are apart at least, not above 0 if they may
+/// touch [m].
 struct PairOutcome {
   bool is_whole = true;
   Real distance = 0;
@@ -94,7 +95,7 @@ TALUS_HD PairOutcome integrate_bodies(const ShapeView& shapes, int shape_a, int 
   return outcome;
 }
 
-/// How far apart two polyhedral bodies are at least [m]; 0 where they are not apart, or within rounding.
+/// How far apart two polyhedral bodies are at least [m]; not above 0 where they are not apart, or within rounding.
 TALUS_HD TALUS_DEVICE_CALL inline Real distance_of_bodies(const ShapeView& shapes, int shape_a, int shape_b,
                                                           const Pose& a, const Pose& b) {
   const ShapeRange &range_a = shapes.shapes[shape_a], &range_b = shapes.shapes[shape_b];
@@ -160,7 +161,7 @@ struct PolyhedronGeometry {
     if (!integrals.to_contact(law, pose_a, elastic)) {
       if constexpr (kMayWait)
         if (scene.contacts.apart_until) {
-          // Where no face plane is between them, an edge of each may be.
+          // Where no known face plane is between them, another one, or an edge of each, may be.
           const Real distance = outcome.distance > 0
                                     ? outcome.distance
                                     : distance_of_bodies(scene.shapes, shape_a, shape_b, pose_a, pose_b);

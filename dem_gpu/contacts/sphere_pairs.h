@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
+
 #include "dem_gpu/contacts/contact_kernel.h"
 #include "dem_gpu/contacts/friction/rolling_friction.h"
 #include "dem_gpu/contacts/normal_damping.h"
@@ -59,7 +61,9 @@ struct SphereTouch {
     touch.curvature = select(is_apart, Real(1) / distance, RealLanes{});
     touch.normal = touch.curvature * offset;
     touch.normal.z = select(is_apart, touch.normal.z, RealLanes{} + Real(1));
-    touch.depth = a.radius() - (distance - b.radius());
+    // Rounding may leave a pair that touches by its squares without any.
+    constexpr Real kLeast = std::numeric_limits<Real>::epsilon() / 4;
+    touch.depth = larger(a.radius() - (distance - b.radius()), kLeast * a.radius());
     touch.depth_before = depth_before;
     touch.inverse_depth = Real(1) / touch.depth;
     touch.lever_a = a.radius() - Real(0.5) * touch.depth;

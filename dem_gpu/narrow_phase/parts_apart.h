@@ -129,7 +129,6 @@ TALUS_HD TALUS_DEVICE_CALL inline Real distance_apart(const PartView& a, const P
     if (simplex.count > 0 && distance >= kGoodShare * length) return distance;
     simplex.add(point);
     if (!simplex.nearest(nearest)) return 0;
-    if (simplex.count == Simplex::kMost) return distance;
   }
   return distance;
 }
