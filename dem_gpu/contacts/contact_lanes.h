@@ -25,7 +25,7 @@ TALUS_HD inline void set_lane(BasicElasticContact<RealLanes>& lanes, int i, cons
   set_lane(lanes.energy, i, contact.energy);
 }
 TALUS_HD inline ElasticContact lane(const BasicElasticContact<RealLanes>& lanes, int i) {
-  return {lane(lanes.force, i),     lane(lanes.torque_a, i), lane(lanes.point, i),
+  return {lane(lanes.force, i),     lane(lanes.torque_a, i),  lane(lanes.point, i),
           lane(lanes.normal, i),    lane(lanes.stiffness, i), lane(lanes.adhesion, i),
           lane(lanes.curvature, i), lane(lanes.depth, i),     lane(lanes.energy, i)};
 }
@@ -100,9 +100,8 @@ TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void respond_to_all(const ContactScene
   const BasicContactSide<RealLanes> a = body_side(bodies, rows.a), b = body_side(bodies, rows.b);
   const PairLanes pair = pair_lanes(scene, rows, [&](int i) { return bodies.material[rows.b[i]]; });
   const RealLanes diameter = smaller(gather(bodies.diameter, rows.a), gather(bodies.diameter, rows.b));
-  const BasicContactForces<RealLanes> forces =
-      contact_forces<Damping, Friction>(scene.contacts, rows.contact, touching.elastic, a, b, pair, friction,
-                                        touching.patch, scene.step, diameter);
+  const BasicContactForces<RealLanes> forces = contact_forces<Damping, Friction>(
+      scene.contacts, rows.contact, touching.elastic, a, b, pair, friction, touching.patch, scene.step, diameter);
   if constexpr (Record::kEnabled)
     for (int i = 0; i < count; ++i)
       record_contact<Damping, Friction>(scene.contacts, rows.contact[i], lane(touching.elastic, i), lane(forces, i),

@@ -133,14 +133,15 @@ struct RandomContacts {
     for (int c = 0; c < count; ++c) add(c);
   }
   void add(int c) {
-    const int a = c % (kBodies - 1), b = kBodies - 1 - c % 2;
+    const int a = c % (kBodies - 2), b = kBodies - 1 - c / 2 % 2;
     const Vec3 normal = random_direction(random), other = random_direction(random);
     const bool is_new = c % 5 == 0, slides = c % 5 == 1, jumps = c % 5 == 2, has_no_patch = c % 7 == 3;
     const Real load = 10 + c;
     elastic.push_back({-load * normal, 0.01 * random_direction(random), 0.01 * random_direction(random), normal, 1e5});
     elastic.back().depth = is_new && c % 2 == 0 ? 1e-9 : 1e-4;
     dem_gpu::Mat3 normals{{}, {}, {}};
-    if (!has_no_patch) dem_gpu::add_outer_product(normals, 0.7, normal), dem_gpu::add_outer_product(normals, 0.3, other);
+    if (!has_no_patch)
+      dem_gpu::add_outer_product(normals, 0.7, normal), dem_gpu::add_outer_product(normals, 0.3, other);
     patch.push_back({normals, has_no_patch ? 0 : load, has_no_patch ? 0 : 0.004, 1e9});
     contacts.key.push_back(dem_gpu::contact_key(dem_gpu::ContactKind::polyhedron_polyhedron, a, b));
     contacts.row.emplace_back();
@@ -150,7 +151,7 @@ struct RandomContacts {
     for (auto& column : contacts.vectors) column.resize(contacts.key.size(), is_new ? Vec3{} : 1e-5 * other);
     if (is_new) return;
     contacts.row.back() = {-load * other, 1e-4, (slides ? 1e-3 : 1e-7) * other, 0};
-    contacts.vectors[2].back() = jumps ? -normal : unit_or(normal + 0.01 * other, {});
+    contacts.vectors[2].back() = unit_or((jumps ? -1 : 1) * normal + (jumps ? 0.3 : 0.01) * other, {});
   }
   ContactScene scene(Contacts& columns, Real time_step) {
     ContactScene scene{};
