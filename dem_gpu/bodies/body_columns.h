@@ -22,6 +22,7 @@ struct BodyConstants {
   DeviceVector<Real> mass;             // [kg]
   DeviceVector<Real> inverse_mass;     // 0 for a fixed body [1/kg]
   DeviceVector<Vec3> inertia;          // principal [kg m2]
+  DeviceVector<Vec3> inverse_inertia;  // 0 for a fixed body [1/(kg m2)]
   DeviceVector<Real> bounding_radius;  // [m]
   DeviceVector<Real> diameter;         // of the sphere of equal volume [m]
   DeviceVector<Real> least_width;      // between parallel planes, see shapes/least_width.h [m]
@@ -57,6 +58,7 @@ struct BodyView {
   const Real* mass;
   const Real* inverse_mass;
   const Vec3* inertia;
+  const Vec3* inverse_inertia;
   const Real* bounding_radius;
   const Real* diameter;
   const Real* least_width;
@@ -92,6 +94,7 @@ inline BodyView view(const BodyConstants& constants, BodyColumns& columns) {
           pointer(constants.mass),
           pointer(constants.inverse_mass),
           pointer(constants.inertia),
+          pointer(constants.inverse_inertia),
           pointer(constants.bounding_radius),
           pointer(constants.diameter),
           pointer(constants.least_width),

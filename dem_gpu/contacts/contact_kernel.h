@@ -65,12 +65,6 @@ TALUS_HD TALUS_ONE_COPY bool find_contact(const Geometry& geometry, const Contac
   return geometry.find(scene, c, a, b, elastic, patch);
 }
 
-/// Geometry that knows of a pair that is apart how long it stays so: waits(scene, c, a, b).
-template <class Geometry>
-concept MayWait = requires {
-  requires Geometry::kMayWait;
-};
-
 /// One contact a thread: `Geometry` finds the elastic contact, the response completes it.
 template <class Geometry, class Friction, class Record>
 struct ComputeContact {
@@ -81,8 +75,6 @@ struct ComputeContact {
   TALUS_HD void operator()(int c) const {
     const ContactKey key = scene.contacts.key[c];
     const int a = key_body_a(key), b = key_body_b(key);
-    if constexpr (MayWait<Geometry>)
-      if (geometry.waits(scene, c, a, b)) return;
     ElasticContact elastic;
     typename Friction::Patch patch;
     const bool is_touching = find_contact(geometry, scene, c, a, b, elastic, patch);

@@ -1,57 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
+#include <type_traits>
 
 #include "dem_gpu/bodies/body_columns.h"
 #include "dem_gpu/contacts/contact_columns.h"
 #include "dem_gpu/contacts/elastic_contact.h"
 #include "dem_gpu/contacts/friction/friction_contact.h"
 #include "dem_gpu/contacts/normal_damping.h"
+#include "dem_gpu/core/row_columns.h"
 #include "dem_gpu/narrow_phase/part_frame.h"
 #include "dem_gpu/walls/wall_columns.h"
 
 namespace dem_gpu {
 
-/// One side of a contact: a body, or a wall of infinite mass.
-struct ContactSide {
-  Vec3 centre;  // of mass, or the wall's rotation centre [m]
-  Vec3 predicted_velocity, predicted_angular_velocity;
-  Vec3 mean_velocity, mean_angular_velocity;
-  Real inverse_mass = 0;   // [1/kg]
-  Real contact_share = 1;  // BodyColumns
-  Vec3 inverse_inertia;    // principal [1/(kg m2)]
-  Mat3 rotation;
+/// One side of a contact: a body, or a wall of infinite mass. Number: of one contact, or of several side by side.
+template <class Number>
+struct BasicContactSide {
+  using Vector = Vector3<Number>;
 
-  TALUS_HD Vec3 predicted_velocity_at(const Vec3& x) const {
+  Vector centre;  // of mass, or the wall's rotation centre [m]
+  Vector predicted_velocity, predicted_angular_velocity;
+  Vector mean_velocity, mean_angular_velocity;
+  Number inverse_mass;     // [1/kg]
+  Number contact_share;    // BodyColumns
+  Vector inverse_inertia;  // principal [1/(kg m2)]
+  BasicMat3<Number> rotation;
+
+  TALUS_HD Vector predicted_velocity_at(const Vector& x) const {
     return predicted_velocity + cross(predicted_angular_velocity, x - centre);
   }
-  TALUS_HD Vec3 mean_velocity_at(const Vec3& x) const {
+  TALUS_HD Vector mean_velocity_at(const Vector& x) const {
     return mean_velocity + cross(mean_angular_velocity, x - centre);
   }
   /// Where x was a point of it as the step of this length began: what was applied there did its work at this velocity.
-  TALUS_HD Vec3 mean_velocity_at_start(const Vec3& x, Real step) const {
-    return mean_velocity + cross(mean_angular_velocity, x - (centre - step * mean_velocity));
+  TALUS_HD Vector mean_velocity_at_start(const Vector& x, Real step) const {
+    return mean_velocity + cross(mean_angular_velocity, x - (centre - (Number{} + step) * mean_velocity));
   }
   /// 1 / mass that an impulse along n at x meets [1/kg].
-  TALUS_HD Real inverse_effective_mass(const Vec3& x, const Vec3& n) const {
-    const Vec3 arm = transpose_times(rotation, cross(x - centre, n));
+  TALUS_HD Number inverse_effective_mass(const Vector& x, const Vector& n) const {
+    const Vector arm = transpose_times(rotation, cross(x - centre, n));
     return inverse_mass + dot(arm, hadamard(inverse_inertia, arm));
   }
 };
+using ContactSide = BasicContactSide<Real>;
 
-TALUS_HD inline ContactSide body_side(const BodyView& bodies, int body) {
-  const Vec3 inertia = bodies.inertia[body];
-  const Real movable = bodies.is_fixed(body) ? 0 : 1;
-  return {bodies.position[body],
-          bodies.predicted_velocity[body],
-          bodies.predicted_angular_velocity[body],
-          bodies.mean_velocity[body],
-          bodies.mean_angular_velocity[body],
-          movable / bodies.mass[body],
-          bodies.contact_share[body],
-          {movable / inertia.x, movable / inertia.y, movable / inertia.z},
-          rotation_matrix(bodies.orientation[body])};
+/// `body`: a row of the body columns, or one a lane.
+template <class Row>
+TALUS_HD BasicContactSide<NumberOf<Row>> body_side(const BodyView& bodies, const Row& body) {
+  return {gather(bodies.position, body),
+          gather(bodies.predicted_velocity, body),
+          gather(bodies.predicted_angular_velocity, body),
+          gather(bodies.mean_velocity, body),
+          gather(bodies.mean_angular_velocity, body),
+          gather(bodies.inverse_mass, body),
+          gather(bodies.contact_share, body),
+          gather(bodies.inverse_inertia, body),
+          rotation_matrix(gather(bodies.orientation, body))};
 }
 
 TALUS_HD inline ContactSide wall_side(const WallRecord& wall) {
@@ -73,12 +78,14 @@ struct WorkRecord {
   static constexpr bool kEnabled = true;
 };
 
-struct ContactForces {
-  NormalDamping normal;
-  Vec3 damping;             // on a [N]
-  FrictionForces friction;  // on a
-  Real effective_mass = 0;  // that an impulse along the normal meets [kg]
+template <class Number>
+struct BasicContactForces {
+  BasicNormalDamping<Number> normal;
+  Vector3<Number> damping;               // on a [N]
+  BasicFrictionForces<Number> friction;  // on a
+  Number effective_mass{};               // that an impulse along the normal meets [kg]
 };
+using ContactForces = BasicContactForces<Real>;
 
 /// Work of the step that ends now, by the trapezoidal rule over the mean velocities: the same quadrature as the
 /// integrator's, so that the ledger measures its error and adds none of its own.
@@ -167,79 +174,87 @@ TALUS_HD void end_contact(const ContactView& contacts, int c, const ContactSide&
 }
 
 /// Friction of contact c from the sides' motion.
-template <class Friction>
-TALUS_HD FrictionForces friction_forces(const ContactView& contacts, int c, FrictionContact contact,
-                                        const ContactSide& a, const ContactSide& b, const Friction& friction,
-                                        const typename Friction::Patch& patch) {
-  const Vec3& point = contact.elastic.point;
+template <class Friction, class Row, class Number, class Patch>
+TALUS_HD BasicFrictionForces<Number> friction_forces(const ContactView& contacts, const Row& c,
+                                                     BasicFrictionContact<Number> contact,
+                                                     const BasicContactSide<Number>& a,
+                                                     const BasicContactSide<Number>& b, const Friction& friction,
+                                                     const Patch& patch) {
+  const Vector3<Number>& point = contact.elastic.point;
   contact.mean = {a.mean_velocity_at(point) - b.mean_velocity_at(point),
                   a.mean_angular_velocity - b.mean_angular_velocity};
   contact.predicted = {a.predicted_velocity_at(point) - b.predicted_velocity_at(point),
                        a.predicted_angular_velocity - b.predicted_angular_velocity};
-  contact.mean_spin = Real(0.5) * (a.mean_angular_velocity + b.mean_angular_velocity);
+  contact.mean_spin = (Number{} + Real(0.5)) * (a.mean_angular_velocity + b.mean_angular_velocity);
   return friction.apply(contacts, c, contact, patch);
 }
 
 /// Acceleration of approach, negative: centres that pass each other at a velocity part as they go [m/s2].
-TALUS_HD inline Real turning(const ElasticContact& elastic, const Vec3& velocity) {
-  const Real along = dot(velocity, elastic.normal);
+template <class Number>
+TALUS_HD Number turning(const BasicElasticContact<Number>& elastic, const Vector3<Number>& velocity) {
+  const Number along = dot(velocity, elastic.normal);
   return -elastic.curvature * (norm_squared(velocity) - along * along);
 }
 
-/// Forces besides the elastic one, which damping may refine. Not part of respond, nor is write_contact, so that motion
-/// is the same with a record and without.
-template <class Damping, class Friction>
-TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED ContactForces contact_forces(const ContactView& contacts, int c,
-                                                                       ElasticContact& elastic, const ContactSide& a,
-                                                                       const ContactSide& b, const PairProperties& pair,
-                                                                       const Friction& friction,
-                                                                       const typename Friction::Patch& patch,
-                                                                       const Step& step, Real diameter) {
-  const Vec3 slip = a.predicted_velocity_at(elastic.point) - b.predicted_velocity_at(elastic.point);
-  const Vec3 mean_slip = a.mean_velocity_at(elastic.point) - b.mean_velocity_at(elastic.point);
-  ContactForces forces;
+/// Forces of contact c, or of one a lane, besides the elastic one, which damping may refine. Not part of respond, nor
+/// is write_contact, so that motion is the same with a record and without.
+template <class Damping, class Friction, class Row, class Number, class Patch>
+TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED BasicContactForces<Number> contact_forces(
+    const ContactView& contacts, const Row& c, BasicElasticContact<Number>& elastic, const BasicContactSide<Number>& a,
+    const BasicContactSide<Number>& b, const BasicPairProperties<Number>& pair, const Friction& friction,
+    const Patch& patch, const Step& step, const Number& diameter) {
+  const Vector3<Number> slip = a.predicted_velocity_at(elastic.point) - b.predicted_velocity_at(elastic.point);
+  const Vector3<Number> mean_slip = a.mean_velocity_at(elastic.point) - b.mean_velocity_at(elastic.point);
+  BasicContactForces<Number> forces;
   forces.effective_mass = 1 / (a.inverse_effective_mass(elastic.point, elastic.normal) +
                                b.inverse_effective_mass(elastic.point, elastic.normal));
   forces.normal = Damping::apply(
       contacts, c, elastic,
-      NormalImpact{pair, forces.effective_mass, dot(mean_slip, elastic.normal), dot(slip, elastic.normal),
-                   turning(elastic, a.mean_velocity - b.mean_velocity), step});
+      BasicNormalImpact<Number>{pair, forces.effective_mass, dot(mean_slip, elastic.normal), dot(slip, elastic.normal),
+                                turning(elastic, a.mean_velocity - b.mean_velocity), step});
   forces.damping = -forces.normal.force * elastic.normal;
   if constexpr (Friction::kEnabled)
     forces.friction =
         friction_forces(contacts, c,
-                        FrictionContact{elastic, pair, forces.normal.force, forces.effective_mass, diameter,
-                                        step.length, std::min(a.contact_share, b.contact_share)},
+                        BasicFrictionContact<Number>{elastic, pair, forces.normal.force, forces.effective_mass,
+                                                     diameter, step.length, smaller(a.contact_share, b.contact_share)},
                         a, b, friction, patch);
   return forces;
 }
 
-TALUS_HD inline Vec3 elastic_torque_on_b(const ElasticContact& elastic, const ContactSide& a, const ContactSide& b) {
+template <class Number>
+TALUS_HD Vector3<Number> elastic_torque_on_b(const BasicElasticContact<Number>& elastic,
+                                             const BasicContactSide<Number>& a, const BasicContactSide<Number>& b) {
   return cross(b.centre - a.centre, elastic.force) - elastic.torque_a;
 }
 
-/// Forces on both sides, and what is kept of the contact.
-template <class Friction>
-TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void write_contact(const ContactView& contacts, int c,
-                                                             const ElasticContact& elastic, const ContactForces& forces,
-                                                             const ContactSide& a, const ContactSide& b, Real time_step,
-                                                             Real diameter) {
-  const Vec3 at_point = forces.damping + forces.friction.force;
-  contacts.force[c] = elastic.force + at_point;
-  contacts.torque_a[c] = elastic.torque_a + cross(elastic.point - a.centre, at_point);
-  contacts.torque_b[c] = elastic_torque_on_b(elastic, a, b) - cross(elastic.point - b.centre, at_point);
+/// Forces on both sides, and what is kept of the contact, or of one a lane: those of walls are single.
+template <class Friction, class Row, class Number>
+TALUS_HD TALUS_ONE_COPY TALUS_ALL_INLINED void write_contact(const ContactView& contacts, const Row& c,
+                                                             const BasicElasticContact<Number>& elastic,
+                                                             const BasicContactForces<Number>& forces,
+                                                             const BasicContactSide<Number>& a,
+                                                             const BasicContactSide<Number>& b, Real time_step,
+                                                             const Number& diameter) {
+  const Vector3<Number> at_point = forces.damping + forces.friction.force, force = elastic.force + at_point;
+  Vector3<Number> torque_a = elastic.torque_a + cross(elastic.point - a.centre, at_point);
+  Vector3<Number> torque_b = elastic_torque_on_b(elastic, a, b) - cross(elastic.point - b.centre, at_point);
   if constexpr (Friction::kHasCouple) {
-    contacts.torque_a[c] += forces.friction.couple;
-    contacts.torque_b[c] -= forces.friction.couple;
+    torque_a += forces.friction.couple;
+    torque_b -= forces.friction.couple;
   }
-  contacts.point[c] = elastic.point;
-  contacts.depth[c] = elastic.depth;
-  contacts.peak_overlap[c] = std::max(contacts.peak_overlap[c], elastic.depth / diameter);
-  contacts.peak_rate[c] = std::max(contacts.peak_rate[c], elastic.stiffness / forces.effective_mass);
-  if (is_wall_kind(key_kind(contacts.key[c]))) {
-    contacts.wall_impulse[c] -= time_step * contacts.force[c];
-    contacts.wall_angular_impulse[c] += time_step * contacts.torque_b[c];
-  }
+  scatter(contacts.force, c, force);
+  scatter(contacts.torque_a, c, torque_a);
+  scatter(contacts.torque_b, c, torque_b);
+  scatter(contacts.point, c, elastic.point);
+  scatter(contacts.depth, c, elastic.depth);
+  scatter(contacts.peak_overlap, c, larger(elastic.depth / diameter, gather(contacts.peak_overlap, c)));
+  scatter(contacts.peak_rate, c, larger(elastic.stiffness / forces.effective_mass, gather(contacts.peak_rate, c)));
+  if constexpr (std::is_same_v<Row, int>)
+    if (is_wall_kind(key_kind(contacts.key[c]))) {
+      contacts.wall_impulse[c] -= time_step * force;
+      contacts.wall_angular_impulse[c] += time_step * torque_b;
+    }
 }
 
 /// Work of a touching contact, before it is written.
@@ -266,7 +281,7 @@ TALUS_HD void respond(const ContactView& contacts, int c, ElasticContact& elasti
                       const ContactSide& b, const PairProperties& pair, const Friction& friction,
                       const typename Friction::Patch& patch, const Step& step, Real diameter) {
   const ContactForces forces =
-      contact_forces<Damping>(contacts, c, elastic, a, b, pair, friction, patch, step, diameter);
+      contact_forces<Damping, Friction>(contacts, c, elastic, a, b, pair, friction, patch, step, diameter);
   if constexpr (Record::kEnabled) record_contact<Damping, Friction>(contacts, c, elastic, forces, a, b, step.length);
   write_contact<Friction>(contacts, c, elastic, forces, a, b, step.length, diameter);
 }

@@ -5,18 +5,21 @@
 
 namespace dem_gpu {
 
-/// Elastic part of a contact between a and b (a body or a wall), world frame.
-struct ElasticContact {
-  Vec3 force;          // on a [N]
-  Vec3 torque_a;       // on a, about a's centre [N m]
-  Vec3 point;          // [m]
-  Vec3 normal;         // contact normal, unit, from a to b
-  Real stiffness = 0;  // tangent stiffness dF/d(depth) [N/m]
-  Real adhesion = 0;   // constant attraction included in `force` [N]
-  Real curvature = 0;  // of the normal's turn as the centres slide past each other: 1 / their distance [1/m]
-  Real depth = 0;      // largest depth [m]
-  Real energy = 0;     // stored, of sphere laws [J]
+/// Elastic part of a contact between a and b (a body or a wall), world frame. Number: one contact, or several side by
+/// side (RealLanes).
+template <class Number>
+struct BasicElasticContact {
+  Vector3<Number> force;     // on a [N]
+  Vector3<Number> torque_a;  // on a, about a's centre [N m]
+  Vector3<Number> point;     // [m]
+  Vector3<Number> normal;    // contact normal, unit, from a to b
+  Number stiffness{};        // tangent stiffness dF/d(depth) [N/m]
+  Number adhesion{};         // constant attraction included in `force` [N]
+  Number curvature{};        // of the normal's turn as the centres slide past each other: 1 / their distance [1/m]
+  Number depth{};            // largest depth [m]
+  Number energy{};           // stored, of sphere laws [J]
 };
+using ElasticContact = BasicElasticContact<Real>;
 
 /// Normal against the force on a; false if the force is zero.
 TALUS_HD inline bool set_normal(ElasticContact& contact) {

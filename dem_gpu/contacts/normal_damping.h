@@ -9,6 +9,7 @@
 #include "dem_gpu/contacts/friction/friction_contact.h"
 #include "dem_gpu/contacts/normal_orbit.h"
 #include "dem_gpu/contacts/normal_series.h"
+#include "dem_gpu/core/row_columns.h"
 
 namespace dem_gpu {
 
@@ -16,10 +17,12 @@ namespace dem_gpu {
 //   apply(contacts, c, elastic, impact)   NormalDamping; may refine the elastic force
 //   forget(contacts, c)                   ends its history
 
-struct NormalDamping {
-  Real force = 0;         // beside the elastic force, positive when repulsive [N]
+template <class Number>
+struct BasicNormalDamping {
+  Number force{};         // beside the elastic force, positive when repulsive [N]
   bool is_orbit = false;  // the elastic force has the dashpot's in it: over a whole step the two are one mean force
 };
+using NormalDamping = BasicNormalDamping<Real>;
 
 /// Depth of a contact that has just begun over the way of approach in a step, at most. Above 1 by the turn of the
 /// normal during a step: bodies that touch deeper than they came were placed so. In single precision a first touch
@@ -32,14 +35,16 @@ struct Step {
 };
 
 /// What a damping policy sees of a touching contact besides the elastic force.
-struct NormalImpact {
-  const PairProperties& pair;
-  Real effective_mass;   // that an impulse along the normal meets [kg]
-  Real mean_speed;       // of approach over the step that ends now [m/s]
-  Real predicted_speed;  // of approach at its end, the forces of its beginning taken as constant [m/s]
-  Real turning;          // acceleration of approach as the normal turns under sliding centres [m/s2]
-  Step step;             // that ends now
+template <class Number>
+struct BasicNormalImpact {
+  const BasicPairProperties<Number>& pair;
+  Number effective_mass;   // that an impulse along the normal meets [kg]
+  Number mean_speed;       // of approach over the step that ends now [m/s]
+  Number predicted_speed;  // of approach at its end, the forces of its beginning taken as constant [m/s]
+  Number turning;          // acceleration of approach as the normal turns under sliding centres [m/s2]
+  Step step;               // that ends now
 };
+using NormalImpact = BasicNormalImpact<Real>;
 
 /// Dashpot beside the elastic force of Verlet, by the implicit midpoint rule over the step that the next full kick
 /// spans. Its window begins at touch, where the force of flat faces jumps: restitution does not depend on where in a
@@ -47,26 +52,31 @@ struct NormalImpact {
 struct PointDamping {
   static constexpr bool kHasOrbit = false;
 
-  TALUS_HD static NormalDamping apply(const ContactView& contacts, int c, const ElasticContact& elastic,
-                                      const NormalImpact& impact) {
-    const Real mass = impact.effective_mass, step = impact.step.length;
+  template <class Row, class Number>
+  TALUS_HD static BasicNormalDamping<Number> apply(const ContactView& contacts, const Row& c,
+                                                   const BasicElasticContact<Number>& elastic,
+                                                   const BasicNormalImpact<Number>& impact) {
+    const Real step = impact.step.length;
     if (!(step > 0)) return {};  // forces of a start, before any step
-    const Real force = norm(elastic.force);
-    const Real rate =
+    const Number mass = impact.effective_mass, force = norm(elastic.force);
+    const Number rate =
         dashpot(impact.pair.damping_ratio, mass, damped_stiffness(elastic.stiffness, force / elastic.depth)) / mass;
-    const Real window = contacts.depth[c] == 0 ? step_of_touch(elastic.depth, impact) : step;
-    const Real contact_before = -dot(contacts.force[c], elastic.normal) / mass;
-    const Real by_others = 2 * (impact.predicted_speed - impact.mean_speed) / step + contact_before;
-    const Real speed = (impact.mean_speed + window / 2 * (by_others - force / mass)) / (1 + rate * window / 2);
-    return {std::max(mass * rate * speed * (window / step), -force)};
+    const auto is_new = gather(contacts.depth, c) == Real(0);
+    const Number window = select(is_new, step_of_touch(elastic.depth, impact), Number{} + step);
+    const Number contact_before = -dot(gather(contacts.force, c), elastic.normal) / mass;
+    const Number by_others = 2 * (impact.predicted_speed - impact.mean_speed) / step + contact_before;
+    const Number speed = (impact.mean_speed + window / 2 * (by_others - force / mass)) / (1 + rate * window / 2);
+    return {larger(-force, mass * rate * speed * (window / step))};
   }
   TALUS_HD static void forget(const ContactView&, int) {}
 
  private:
   /// From touch to half a step after the end of the step in which it fell [s].
-  TALUS_HD static Real step_of_touch(Real depth, const NormalImpact& impact) {
+  template <class Number>
+  TALUS_HD static Number step_of_touch(const Number& depth, const BasicNormalImpact<Number>& impact) {
     const Real step = impact.step.length;
-    return depth <= kTouchMargin * step * impact.mean_speed ? step / 2 + depth / impact.mean_speed : step;
+    return select(depth <= kTouchMargin * step * impact.mean_speed, step / 2 + depth / impact.mean_speed,
+                  Number{} + step);
   }
 };
 

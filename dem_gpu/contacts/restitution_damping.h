@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cmath>
+#include <type_traits>
 
 #include "dem_gpu/core/host_device.h"
-#include "dem_gpu/core/real.h"
+#include "dem_gpu/core/real_lanes.h"
 
 namespace dem_gpu {
 
@@ -22,11 +22,16 @@ Real damping_ratio(Real restitution);
 inline constexpr Real kLeastRestitution = Real(5e-4);
 
 /// F^2 / (2 U) of a power law F ~ depth^n: the mean of tangent and secant stiffness [N/m].
-TALUS_HD inline Real damped_stiffness(Real tangent, Real secant) { return (tangent + secant) / 2; }
+template <class Number>
+TALUS_HD Number damped_stiffness(const Number& tangent, const Number& secant) {
+  return (tangent + secant) / 2;
+}
 
 /// c of a dashpot [N s/m]. `stiffness`: damped_stiffness.
-TALUS_HD inline Real dashpot(Real damping_ratio, Real effective_mass, Real stiffness) {
-  return 2 * damping_ratio * std::sqrt(effective_mass * stiffness);
+template <class Number>
+TALUS_HD Number dashpot(const Number& damping_ratio, const std::type_identity_t<Number>& effective_mass,
+                        const std::type_identity_t<Number>& stiffness) {
+  return 2 * damping_ratio * square_root(effective_mass * stiffness);
 }
 
 }  // namespace dem_gpu

@@ -6,42 +6,15 @@
 #include "dem_gpu/contacts/contact_kernel.h"
 #include "dem_gpu/contacts/friction/rolling_friction.h"
 #include "dem_gpu/contacts/normal_damping.h"
+#include "dem_gpu/contacts/pair_lanes.h"
 #include "dem_gpu/contacts/sphere_rows.h"
 #include "dem_gpu/core/lanes.h"
 
 namespace dem_gpu {
 
-/// Touching pairs of spheres side by side, or of spheres and walls. The normal goes through the centres of spheres, so
-/// that elastic forces turn nothing, an impulse along it meets 1 / (1/m_a + 1/m_b), and the torques of friction are the
-/// two levers times normal x force.
-struct PairRows {
-  RowLanes contact, a, b;
-};
-
-/// Properties of the pairs of materials.
-struct PairLanes {
-  RealLanes friction_coefficient, effective_modulus, damping, tangential_stiffness_ratio, tangential_damping,
-      rolling_friction, adhesion;
-};
-
-/// `material_b(i)`: of the other side in lane i.
-template <class MaterialB>
-TALUS_HD PairLanes pair_lanes(const ContactScene& scene, const PairRows& rows, const MaterialB& material_b) {
-  const auto property = [&](Real PairProperties::*of) {
-    RealLanes lanes = RealLanes{} + scene.pairs[0].*of;
-    if (scene.material_count > 1)
-      for (int i = 0; i < kRealLanes; ++i)
-        lane(lanes, i) = scene.pair(scene.bodies.material[rows.a[i]], material_b(i)).*of;
-    return lanes;
-  };
-  return {property(&PairProperties::friction_coefficient),
-          property(&PairProperties::effective_modulus),
-          property(&PairProperties::sphere_damping),
-          property(&PairProperties::tangential_stiffness_ratio),
-          property(&PairProperties::sphere_tangential_damping),
-          property(&PairProperties::rolling_friction),
-          property(&PairProperties::adhesion)};
-}
+// Touching pairs of spheres side by side, or of spheres and walls. The normal goes through the centres of spheres, so
+// that elastic forces turn nothing, an impulse along it meets 1 / (1/m_a + 1/m_b), and the torques of friction are the
+// two levers times normal x force.
 
 /// Where and how deep a sphere touches another, or a wall.
 struct SphereTouch {
@@ -136,7 +109,7 @@ TALUS_HD void find_push(const ContactScene& scene, const LastContact& last, cons
   const RealLanes& inverse_mass = response.inverse_mass;
   const RealLanes mean_speed = dot(mean.relative, touch.normal);
   const RealLanes turning = -touch.curvature * (norm_squared(mean.relative) - mean_speed * mean_speed);
-  const RealLanes damping = Real(2) * pair.damping * response.rate;
+  const RealLanes damping = Real(2) * pair.sphere_damping * response.rate;
   const auto is_verlet = is_left_to_verlet<Law>(damping, response.adhesion, response.rate, step);
   const auto is_first = (touch.depth_before == Real(0)) & (touch.depth <= kTouchMargin * step * mean_speed);
   RealLanes owed = last.spring_owed.number;
@@ -187,8 +160,8 @@ TALUS_HD void find_friction(const ContactScene& scene, const PairRows& rows, con
   response.sliding = last.spring_owed.vector;
   const SphereSpringForce<RealLanes> sliding =
       spring_force<Law>(response.sliding, slip, stiffness,
-                        tangential_dashpot(Real(2) * pair.tangential_damping * response.rate, response.effective_mass,
-                                           response.contact_share, step),
+                        tangential_dashpot(Real(2) * pair.sphere_tangential_damping * response.rate,
+                                           response.effective_mass, response.contact_share, step),
                         step);
   response.friction = sliding.force;
   response.tangential_energy = sliding.energy;

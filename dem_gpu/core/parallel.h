@@ -103,40 +103,45 @@ void parallel_for(int first, int last, const Kernel& kernel, const Gate& gate = 
 #endif
 
 #if defined(TALUS_BACKEND_CUDA)
-inline constexpr int kRangeLength = 1;
+inline constexpr int kRangeLength = 1, kShortRange = 1;
 #else
 /// Long enough to fill vector registers, short enough to share out.
 inline constexpr int kRangeLength = 256;
+/// Of items that take long.
+inline constexpr int kShortRange = 64;
 #endif
 
-template <class Kernel>
+template <int kLength, class Kernel>
 struct RangeKernel {
   Kernel kernel;
   int first, last;
 
   TALUS_HD void operator()(int range) const {
-    const int begin = first + range * kRangeLength;
-    kernel(begin, begin + kRangeLength < last ? begin + kRangeLength : last);
+    const int begin = first + range * kLength;
+    kernel(begin, begin + kLength < last ? begin + kLength : last);
   }
 };
 
-TALUS_HD inline int range_count(int items) { return (items + kRangeLength - 1) / kRangeLength; }
+template <int kLength = kRangeLength>
+TALUS_HD int range_count(int items) {
+  return (items + kLength - 1) / kLength;
+}
 
 #if defined(TALUS_BACKEND_CUDA)
 
-/// kernel(i, j) for ranges [i, j) that cover [first, last), of up to kRangeLength items, in any order, where the gate
-/// is open.
-template <class Kernel>
+/// kernel(i, j) for ranges [i, j) that cover [first, last), of up to kLength items, in any order, where the gate is
+/// open.
+template <int kLength = kRangeLength, class Kernel>
 void parallel_for_ranges(int first, int last, const Kernel& kernel, const Gate& gate = {}) {
-  parallel_for(0, range_count(last - first), RangeKernel<Kernel>{kernel, first, last}, gate);
+  parallel_for(0, range_count<kLength>(last - first), RangeKernel<kLength, Kernel>{kernel, first, last}, gate);
 }
 
 #else
 
-template <class Kernel>
+template <int kLength, class Kernel>
 __attribute__((noinline)) void run_ranges(int first, int last, const Kernel& kernel) {
-  const int ranges = range_count(last - first);
-  const RangeKernel<Kernel> of_range{kernel, first, last};
+  const int ranges = range_count<kLength>(last - first);
+  const RangeKernel<kLength, Kernel> of_range{kernel, first, last};
   if (ranges <= kFewRanges)
     for (int i = 0; i < ranges; ++i) of_range(i);
   else
@@ -144,14 +149,14 @@ __attribute__((noinline)) void run_ranges(int first, int last, const Kernel& ker
                      of_range);
 }
 
-/// kernel(i, j) for ranges [i, j) that cover [first, last), of up to kRangeLength items, in any order, where the gate
-/// is open.
-template <class Kernel>
+/// kernel(i, j) for ranges [i, j) that cover [first, last), of up to kLength items, in any order, where the gate is
+/// open.
+template <int kLength = kRangeLength, class Kernel>
 void parallel_for_ranges(int first, int last, const Kernel& kernel, const Gate& gate = {}) {
   if (gate.record)
-    write_down(gate, [=](const Gate& later) { parallel_for_ranges(first, last, kernel, later); });
+    write_down(gate, [=](const Gate& later) { parallel_for_ranges<kLength>(first, last, kernel, later); });
   else if (!gate.is_closed())
-    run_ranges(first, last, kernel);
+    run_ranges<kLength>(first, last, kernel);
 }
 
 #endif

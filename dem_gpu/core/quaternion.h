@@ -37,7 +37,7 @@ TALUS_HD inline Quaternion axis_angle(const Vec3& axis, Real angle) {
 /// Rotation matrix by its columns: the body axes in the world frame.
 template <class Number>
 struct BasicMat3 {
-  Vector3<Number> column_x{1, 0, 0}, column_y{0, 1, 0}, column_z{0, 0, 1};
+  Vector3<Number> column_x{Number{} + 1, {}, {}}, column_y{{}, Number{} + 1, {}}, column_z{{}, {}, Number{} + 1};
 };
 using Mat3 = BasicMat3<Real>;
 

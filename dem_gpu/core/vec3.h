@@ -77,6 +77,14 @@ TALUS_HD inline Scalar norm(const Vector3<Scalar>& a) {
   return square_root(dot(a, a));
 }
 
+/// `is_first`: as select of numbers takes it.
+template <class Mask, class Scalar>
+TALUS_HD inline Vector3<Scalar> select(const Mask& is_first, const Vector3<Scalar>& first,
+                                       const std::type_identity_t<Vector3<Scalar>>& second) {
+  return {select(is_first, first.x, second.x), select(is_first, first.y, second.y),
+          select(is_first, first.z, second.z)};
+}
+
 /// a / |a|, or `fallback` where a is zero.
 template <class Scalar>
 TALUS_HD inline Vector3<Scalar> unit_or(const Vector3<Scalar>& a,

@@ -34,19 +34,4 @@ TALUS_HD inline void append_lanes(const RowLanes& lanes, unsigned which, int* to
 
 TALUS_HD inline Vec3 lane(const Vector3<RealLanes>& v, int i) { return {lane(v.x, i), lane(v.y, i), lane(v.z, i)}; }
 
-/// For columns that few scenes have; what every scene has is in quads (row_quads.h).
-TALUS_HD inline Vector3<RealLanes> gather(const Vec3* column, const RowLanes& rows) {
-  Vector3<RealLanes> values;
-  for (int i = 0; i < kRealLanes; ++i) {
-    const Vec3& row = column[rows[i]];
-    lane(values.x, i) = row.x;
-    lane(values.y, i) = row.y;
-    lane(values.z, i) = row.z;
-  }
-  return values;
-}
-TALUS_HD inline void scatter(Vec3* column, const RowLanes& rows, const Vector3<RealLanes>& values) {
-  for (int i = 0; i < kRealLanes; ++i) column[rows[i]] = lane(values, i);
-}
-
 }  // namespace dem_gpu

@@ -162,6 +162,7 @@ void fit_columns_to_ghosts(const Model& model, State& state) {
   resize_and_copy(constants.mass, ghosts);
   resize_and_copy(constants.inverse_mass, ghosts);
   resize_and_copy(constants.inertia, ghosts);
+  resize_and_copy(constants.inverse_inertia, ghosts);
   resize_and_copy(constants.bounding_radius, ghosts);
   resize_and_copy(constants.diameter, ghosts);
   resize_and_copy(constants.least_width, ghosts);

@@ -66,7 +66,7 @@ std::vector<PairProperties> pair_properties(const Scene& scene) {
   const std::size_t n = scene.materials.size();
   const Real sphere_exponent = std::visit([](const auto& law) { return law.kExponent; }, scene.sphere_law);
   // Of tangent stiffness: damped_stiffness of a power law over it, its root.
-  const Real of_tangent = std::sqrt(damped_stiffness(1, 1 / sphere_exponent));
+  const Real of_tangent = std::sqrt(damped_stiffness(Real(1), 1 / sphere_exponent));
   std::map<Real, Real> solved;
   std::vector<PairProperties> pairs(n * n);
   for (std::size_t i = 0; i < n; ++i)
@@ -89,7 +89,7 @@ void set_bodies(const Scene& scene, const PreparedShapes& prepared, BodyConstant
   const std::vector<ShapeRange> shapes = to_host(prepared.columns.shapes);
   std::vector<int> shape(n), material(n);
   std::vector<Real> scale(n), mass(n), inverse_mass(n), radius(n), diameter(n), width(n);
-  std::vector<Vec3> inertia(n), position(n), velocity(n), angular_velocity(n);
+  std::vector<Vec3> inertia(n), inverse_inertia(n), position(n), velocity(n), angular_velocity(n);
   std::vector<Quaternion> orientation(n);
   std::vector<char> active(n);
   for (std::size_t i = 0; i < n; ++i) {
@@ -102,6 +102,7 @@ void set_bodies(const Scene& scene, const PreparedShapes& prepared, BodyConstant
     mass[i] = density * range.volume * s * s * s;
     inverse_mass[i] = body.is_fixed ? 0 : 1 / mass[i];
     inertia[i] = (density * s * s * s * s * s) * range.inertia;
+    if (!body.is_fixed) inverse_inertia[i] = {1 / inertia[i].x, 1 / inertia[i].y, 1 / inertia[i].z};
     radius[i] = s * range.bounding_radius;
     diameter[i] = s * range.equivalent_diameter;
     width[i] = s * prepared.least_width[body.shape];
@@ -117,6 +118,7 @@ void set_bodies(const Scene& scene, const PreparedShapes& prepared, BodyConstant
   assign(constants.mass, mass);
   assign(constants.inverse_mass, inverse_mass);
   assign(constants.inertia, inertia);
+  assign(constants.inverse_inertia, inverse_inertia);
   assign(constants.bounding_radius, radius);
   assign(constants.diameter, diameter);
   assign(constants.least_width, width);

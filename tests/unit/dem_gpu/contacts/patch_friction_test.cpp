@@ -124,7 +124,7 @@ TEST(PatchFriction, LoadUpAndDownLeavesAStuckContactWhereItWas) {
 }
 
 TEST(PatchSprings, FollowTheTurningPlaneAndTheSpin) {
-  PatchSprings springs{{0.01, 0, 0}, {0, 0, 0.01}};
+  PatchSprings<dem_gpu::Real> springs{{0.01, 0, 0}, {0, 0, 0.01}};
   Vec3 last{0, 0, 1};
   for (int degree = 1; degree <= 90; ++degree) {
     const Real angle = degree * std::numbers::pi / 180;
