@@ -63,29 +63,15 @@ struct CarryHistory {
   }
 };
 
-/// Entries of the two sides of contact c; a ghost's are its owner's, a wall side sorts behind all bodies.
-struct ListIncidence {
+/// The body of a side of a contact, 2 * contact + side; a ghost's is its owner, a wall's one behind all bodies.
+struct BodyOfSide {
   const ContactKey* key;
   GhostView ghosts;
-  std::int64_t* incident;
 
-  TALUS_HD void operator()(int c) const {
-    const auto entry = [&](int body, int side) {
-      return (static_cast<std::int64_t>(body) << 32) | static_cast<std::int64_t>(2 * c + side);
-    };
-    incident[2 * c] = entry(key_body_a(key[c]), 0);
-    incident[2 * c + 1] =
-        entry(is_wall_kind(key_kind(key[c])) ? ghosts.body_count : ghosts.owner(key_body_b(key[c])), 1);
-  }
-};
-
-struct FindIncidence {
-  const std::int64_t* incident;
-  int count;
-  int* first;
-
-  TALUS_HD void operator()(int body) const {
-    first[body] = lower_bound(incident, count, static_cast<std::int64_t>(body) << 32);
+  TALUS_HD int operator()(int side) const {
+    const ContactKey contact = key[side / 2];
+    if (side % 2 == 0) return key_body_a(contact);
+    return is_wall_kind(key_kind(contact)) ? ghosts.body_count : ghosts.owner(key_body_b(contact));
   }
 };
 
@@ -111,13 +97,10 @@ void carry_history(const Model& model, State& state, const GhostChange* change, 
 
 void list_incidence(const Model& model, State& state) {
   const GhostView ghosts = ghost_view(model, state);
-  const int body_count = ghosts.body_count;
-  const int count = static_cast<int>(state.contacts.key.size());
-  state.incident.resize(2 * static_cast<std::size_t>(count));
-  state.incident_first.resize(static_cast<std::size_t>(body_count) + 1);
-  parallel_for(0, count, ListIncidence{pointer(state.contacts.key), ghosts, pointer(state.incident)});
-  sort(state.incident);
-  parallel_for(0, body_count + 1, FindIncidence{pointer(state.incident), 2 * count, pointer(state.incident_first)});
+  const int side_count = 2 * static_cast<int>(state.contacts.key.size());
+  sort_into_rows(side_count, ghosts.body_count + 1, BodyOfSide{pointer(state.contacts.key), ghosts},
+                 state.incident_first, state.incident);
+  state.incident_first.resize(static_cast<std::size_t>(ghosts.body_count) + 1);  // of bodies alone
 }
 
 [[noreturn]] void report_lost_body(const Model& model, const State& state) {

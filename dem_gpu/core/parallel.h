@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "dem_gpu/core/device_vector.h"
@@ -213,6 +214,60 @@ TALUS_HD inline int lower_bound(const T* ascending, int count, const T& value) {
   }
   return first;
 }
+
+/// An item in its row.
+TALUS_HD inline std::int64_t row_entry(int row, int item) {
+  return (static_cast<std::int64_t>(row) << 32) | static_cast<std::int64_t>(item);
+}
+
+#if defined(TALUS_BACKEND_CUDA)
+
+template <class RowOf>
+struct WriteRowEntry {
+  RowOf row_of;
+  std::int64_t* entries;
+  TALUS_HD void operator()(int i) const { entries[i] = row_entry(row_of(i), i); }
+};
+struct FindRow {
+  const std::int64_t* entries;
+  int count;
+  int* first;
+  TALUS_HD void operator()(int row) const { first[row] = lower_bound(entries, count, row_entry(row, 0)); }
+};
+
+/// Items [0, item_count) by their rows, row_of(item) in [0, row_count): `entries` (n_items) become row_entry of each,
+/// ascending, and row r has [first[r], first[r + 1]); `first` has row_count + 1.
+template <class RowOf>
+void sort_into_rows(int item_count, int row_count, const RowOf& row_of, DeviceVector<int>& first,
+                    DeviceVector<std::int64_t>& entries) {
+  entries.resize(static_cast<std::size_t>(item_count));
+  first.resize(static_cast<std::size_t>(row_count) + 1);
+  parallel_for(0, item_count, WriteRowEntry<RowOf>{row_of, pointer(entries)});
+  sort(entries);
+  parallel_for(0, row_count + 1, FindRow{pointer(entries), item_count, pointer(first)});
+}
+
+#else
+
+/// Items [0, item_count) by their rows, row_of(item) in [0, row_count): `entries` (n_items) become row_entry of each,
+/// ascending, and row r has [first[r], first[r + 1]); `first` has row_count + 1. By counting: one thread so takes a
+/// third of the time of a sort.
+template <class RowOf>
+void sort_into_rows(int item_count, int row_count, const RowOf& row_of, DeviceVector<int>& first,
+                    DeviceVector<std::int64_t>& entries) {
+  entries.resize(static_cast<std::size_t>(item_count));
+  first.assign(static_cast<std::size_t>(row_count) + 1, 0);
+  int* const next = pointer(first) + 1;  // of each row; afterwards where the next row begins
+  for (int i = 0; i < item_count; ++i)
+    if (const int row = row_of(i); row + 1 < row_count) ++next[row + 1];
+  for (int row = 1; row < row_count; ++row) next[row] += next[row - 1];
+  for (int i = 0; i < item_count; ++i) {
+    const int row = row_of(i);
+    entries[static_cast<std::size_t>(next[row]++)] = row_entry(row, i);
+  }
+}
+
+#endif
 
 template <class T, int kValues>
 struct CountBelow {
