@@ -16,9 +16,9 @@
 #endif
 #endif
 
-// Several contacts of spheres worked on together: one vector register on the CPU, a single number on the GPU, where the
-// threads are the lanes. What is written for a template
-// parameter Number takes a Real or RealLanes; every lane is rounded alike, wherever in the register it lies.
+// Several contacts or bodies worked on together: one vector register on the CPU, a single number on the GPU, where the
+// threads are the lanes. What is written for a template parameter Number takes a Real or RealLanes; every lane is
+// rounded alike, wherever in the register it lies.
 
 namespace dem_gpu {
 
