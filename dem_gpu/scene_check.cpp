@@ -171,8 +171,8 @@ void check_run(const Scene& scene) {
     demand(is_unit(scene.outflow->direction) && !std::isnan(scene.outflow->height), "outflow",
            "direction must be a unit vector and height a number");
   if (scene.friction)
-    demand(scene.friction->tangential_stiffness_ratio >= 0 && std::isfinite(scene.friction->tangential_stiffness_ratio),
-           "friction", "tangential stiffness ratio must not be negative");
+    demand(is_positive(scene.friction->tangential_stiffness_ratio), "friction",
+           "tangential stiffness ratio must be positive; leave friction out for a scene without");
   if (has_shape(scene, false))
     demand(is_positive(std::visit([](const auto& law) { return law.stiffness; }, scene.polyhedral_law)),
            "contact law of polyhedra", "stiffness must be positive");

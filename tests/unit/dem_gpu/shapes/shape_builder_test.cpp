@@ -218,6 +218,7 @@ TEST(SceneCheck, RefusesBadInputNamingThePlace) {
        "polyhedra", "cap"},
       {[](Scene& s) { s.sphere_law = dem_gpu::LinearSpring{-1}; }, "spheres", "stiffness"},
       {[](Scene& s) { s.friction->tangential_stiffness_ratio = -1; }, "friction", "ratio"},
+      {[](Scene& s) { s.friction->tangential_stiffness_ratio = 0; }, "friction", "ratio"},
       {[](Scene& s) {
          s.outflow = dem_gpu::Outflow{{0, 0, 0}, 0};
        },
