@@ -215,6 +215,9 @@ TALUS_HD inline int lower_bound(const T* ascending, int count, const T& value) {
   return first;
 }
 
+// sort_into_rows: items [0, item_count) by their rows, row_of(item) in [0, row_count). `entries` (n_items) become
+// row_entry of each, ascending, and row r has [first[r], first[r + 1]); `first` has row_count + 1.
+
 /// An item in its row.
 TALUS_HD inline std::int64_t row_entry(int row, int item) {
   return (static_cast<std::int64_t>(row) << 32) | static_cast<std::int64_t>(item);
@@ -235,8 +238,6 @@ struct FindRow {
   TALUS_HD void operator()(int row) const { first[row] = lower_bound(entries, count, row_entry(row, 0)); }
 };
 
-/// Items [0, item_count) by their rows, row_of(item) in [0, row_count): `entries` (n_items) become row_entry of each,
-/// ascending, and row r has [first[r], first[r + 1]); `first` has row_count + 1.
 template <class RowOf>
 void sort_into_rows(int item_count, int row_count, const RowOf& row_of, DeviceVector<int>& first,
                     DeviceVector<std::int64_t>& entries) {
@@ -249,9 +250,7 @@ void sort_into_rows(int item_count, int row_count, const RowOf& row_of, DeviceVe
 
 #else
 
-/// Items [0, item_count) by their rows, row_of(item) in [0, row_count): `entries` (n_items) become row_entry of each,
-/// ascending, and row r has [first[r], first[r + 1]); `first` has row_count + 1. By counting: one thread so takes a
-/// third of the time of a sort.
+/// By counting, on the calling thread.
 template <class RowOf>
 void sort_into_rows(int item_count, int row_count, const RowOf& row_of, DeviceVector<int>& first,
                     DeviceVector<std::int64_t>& entries) {

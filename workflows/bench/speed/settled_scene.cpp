@@ -2,13 +2,11 @@
 #include "workflows/bench/speed/settled_scene.h"
 
 #include <map>
-#include <thread>
 #include <utility>
 
 #include "tests/benchmark/scenes/resumed_scene.h"
 #include "tests/benchmark/scenes/settling.h"
 #include "workflows/bench/speed/step_time.h"
-#include "workflows/thread_count.h"
 
 namespace workflows {
 
@@ -17,13 +15,9 @@ using benchmark_scenes::SpeedScene;
 
 namespace {
 
-/// On all threads there are, since it takes longest and its result does not depend on them. Leaves the engine with one,
-/// where it has a choice.
 Settled settle_quickly(const SpeedScene& speed_scene, int bodies) {
-  if (!has_two_threads()) return benchmark_scenes::settle(speed_scene, bodies);
-  set_thread_count(static_cast<int>(std::thread::hardware_concurrency()));
-  Settled settled = benchmark_scenes::settle(speed_scene, bodies);
-  set_thread_count(1);
+  Settled settled;
+  on_all_threads([&] { settled = benchmark_scenes::settle(speed_scene, bodies); });
   return settled;
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <thread>
 
 #include "workflows/bench/speed/settled_scene.h"
 #include "workflows/bench/speed/step_time.h"
@@ -79,22 +78,11 @@ void add_state(Figures& figures, const Scene& scene, const Simulation& simulatio
   figures.add("mean overlap over diameter, at the end", contacts.mean_overlap, "-");
 }
 
-/// What is not timed goes on all threads; its result does not depend on them.
-void advance_quickly(Simulation& simulation, std::int64_t steps) {
-  if (!has_two_threads()) {
-    simulation.advance(steps);
-    return;
-  }
-  set_thread_count(static_cast<int>(std::thread::hardware_concurrency()));
-  simulation.advance(steps);
-  set_thread_count(1);
-}
-
 /// A short run while bodies fall on each other, with the ledger that the timed runs go without.
 void add_energy(Figures& figures, const SpeedScene& speed_scene, SceneOptions options) {
   options.has_ledger = true;
   Simulation simulation(scene_at(speed_scene, Moment::busy, options));
-  advance_quickly(simulation, kResettlingSteps + kLedgerSteps);
+  on_all_threads([&] { simulation.advance(kResettlingSteps + kLedgerSteps); });
   const dem_gpu::EnergyLedger ledger = simulation.ledger();
   // The published volume law is not the gradient of an energy: it promises nothing.
   std::optional<Goal> goal;
@@ -117,7 +105,7 @@ CaseResult measure_speed(const std::string& scene_name, Law law, const SpeedGoal
   Figures figures(result);
   const std::size_t before = allocated_bytes();
   Simulation simulation(scene);
-  advance_quickly(simulation, kResettlingSteps);
+  on_all_threads([&] { simulation.advance(kResettlingSteps); });
   const std::optional<double> liggghts = liggghts_step_time();
   const StepTimes times = time_steps(simulation, benchmark_scenes::kWindows, kWindowSteps);
   const std::size_t allocated = allocated_bytes() - before;

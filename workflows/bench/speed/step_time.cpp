@@ -49,6 +49,13 @@ double two_thread_speed_up(dem_gpu::Simulation& simulation, int windows, int ste
 
 bool has_two_threads() { return has_choice_of_threads() && std::thread::hardware_concurrency() >= 2; }
 
+void on_all_threads(const std::function<void()>& work) {
+  if (!has_two_threads()) return work();
+  set_thread_count(static_cast<int>(std::thread::hardware_concurrency()));
+  work();
+  set_thread_count(1);
+}
+
 std::size_t allocated_bytes() {
   const struct mallinfo2 allocated = mallinfo2();
   return allocated.uordblks + allocated.hblkhd;

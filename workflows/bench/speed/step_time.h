@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 
 #include "dem_gpu/simulation.h"
 
@@ -21,6 +22,10 @@ double two_thread_speed_up(dem_gpu::Simulation& simulation, int windows, int ste
 
 /// Whether this build and machine can run two threads beside each other.
 bool has_two_threads();
+
+/// Does what is not timed on all threads there are; its result does not depend on them. Leaves the engine with one,
+/// where it has a choice.
+void on_all_threads(const std::function<void()>& work);
 
 /// What the process holds in allocated memory [bytes].
 std::size_t allocated_bytes();
