@@ -44,23 +44,31 @@ TALUS_HD inline Real aligned_share(Real cosine) {
   return t * t * (3 - 2 * t);
 }
 
-/// Surface of one body inside the other.
-struct PatchSide {
+/// Surface of one body inside the other, as one contact, along the sum of its normals.
+struct WholeSide {
+  Vec3 total;  // sum of weight n
+  Real weight = 0;
+
+  TALUS_HD void add(Real w, const Vec3& weighted_n) {
+    total += weighted_n;
+    weight += w;
+  }
+  /// 1 for a plane, 0.71 for a right-angled corner pressed evenly.
+  TALUS_HD Real flatness() const { return weight > 0 ? norm(total) / weight : 0; }
+};
+
+/// The same, its flat patches as contacts of their own.
+struct PatchSide : WholeSide {
   Mat3 tensor{{}, {}, {}};  // sum of aligned weight n n^T
   Real aligned = 0;         // sum of aligned weight
   Vec3 pointed;             // sum of n times the weight that is not aligned: one contact, a corner or an edge
-  Vec3 total;               // sum of weight n
-  Real weight = 0;
 
   TALUS_HD void add(Real w, Real aligned_w, const Vec3& n) {
     add_outer_product(tensor, aligned_w, n);
     aligned += aligned_w;
     pointed += (w - aligned_w) * n;
-    total += w * n;
-    weight += w;
+    WholeSide::add(w, w * n);
   }
-  /// 1 for a plane, 0.71 for a right-angled corner pressed evenly.
-  TALUS_HD Real flatness() const { return weight > 0 ? norm(total) / weight : 0; }
   TALUS_HD Mat3 normals() const {
     Mat3 sum = tensor;
     const Real length = norm(pointed), load = aligned + length;
@@ -72,12 +80,28 @@ struct PatchSide {
 
 /// What friction needs of a contact's surfaces, in a's unscaled body frame about a's centre. Sums over outer faces
 /// only, additive over parts and over pieces of a face, so they do not depend on the cut.
-struct PatchSums {
-  PatchSide side_a, side_b;  // n: direction of the force on a
-  Real weight = 0;           // integral of depth dA, both sides
-  Vec3 first_moment;         // of depth dA
-  Real second_moment = 0;    // integral of depth |x|^2 dA
+template <class Side>
+struct PatchSumsOf {
+  Side side_a, side_b;     // n: direction of the force on a
+  Real weight = 0;         // both sides: integral of depth dA, under the volume law the area
+  Vec3 first_moment;       // so weighted, of x
+  Real second_moment = 0;  // of |x|^2
 
+  /// The flatter side tells the normals (a corner on a face: the face), without a jump where the sides change places:
+  /// how much of them a's side tells.
+  TALUS_HD Real share_of_a() const {
+    constexpr Real kMargin = Real(0.1);
+    const Real ahead = (side_a.flatness() - side_b.flatness()) / kMargin;
+    return Real(0.5) + Real(0.5) * std::min(std::max(ahead, Real(-1)), Real(1));
+  }
+
+  TALUS_HD Real lever() const {
+    if (!(weight > 0)) return 0;
+    return std::sqrt(std::max(second_moment / weight - norm_squared(first_moment / weight), Real(0)));
+  }
+};
+
+struct PatchSums : PatchSumsOf<PatchSide> {
   TALUS_HD void add(PatchSide& side, Real w, Real aligned_w, const Vec3& direction, const Vec3& first, Real second) {
     side.add(w, aligned_w, direction);
     weight += w;
@@ -88,17 +112,21 @@ struct PatchSums {
   /// Sum of the patches' loads: equal to the weight of the force wherever all of the contact has one normal.
   TALUS_HD Real load() const { return side_a.aligned + side_b.aligned + norm(side_a.pointed + side_b.pointed); }
 
-  /// The flatter side tells the normals (a corner on a face: the face), without a jump where the sides change places.
   TALUS_HD Mat3 normals() const {
-    constexpr Real kMargin = Real(0.1);
-    const Real ahead = (side_a.flatness() - side_b.flatness()) / kMargin;
-    const Real share = Real(0.5) + Real(0.5) * std::min(std::max(ahead, Real(-1)), Real(1));
+    const Real share = share_of_a();
     return weighted_sum(share, side_a.normals(), 1 - share, side_b.normals());
   }
+};
 
-  TALUS_HD Real lever() const {
-    if (!(weight > 0)) return 0;
-    return std::sqrt(std::max(second_moment / weight - norm_squared(first_moment / weight), Real(0)));
+/// Under the volume law.
+struct AreaPatchSums : PatchSumsOf<WholeSide> {
+  /// In the frame that a's is turned into by a rotation.
+  TALUS_HD Mat3 normals(const Mat3& rotation) const {
+    const Real share = share_of_a();
+    Mat3 sum{{}, {}, {}};
+    add_outer_product(sum, share, rotation * unit_or(side_a.total, Vec3{}));
+    add_outer_product(sum, 1 - share, rotation * unit_or(side_b.total, Vec3{}));
+    return sum;
   }
 };
 

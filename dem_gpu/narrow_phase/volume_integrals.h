@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 
 #include "dem_gpu/contacts/elastic_contact.h"
 #include "dem_gpu/narrow_phase/closing_planes.h"
@@ -27,7 +28,7 @@ struct VolumeIntegralsOf {
   Mat3 second_moment{{}, {}, {}};  // integral of (x - reference) (x - reference)^T dV [m5]
   Vec3 reference;                  // a point of the overlap [m]
   bool has_reference = false;
-  Sums patch;  // of the area
+  std::conditional_t<kHasPatch, AreaPatchSums, NoPatchSums> patch;  // of the area
 
   /// Adds the overlap of two parts from one part's surface inside the other alone, which these planes close. All in
   /// a's frame; `is_of_b`: the surface is b's. False, and nothing is added, in single precision where the overlap is a
@@ -93,8 +94,7 @@ struct VolumeIntegralsOf {
 
   TALUS_HD ContactPatch to_patch(const OverlapVolume& law, const Pose& a,
                                  const ElasticContact& contact) const requires kHasPatch {
-    return {rotated(patch.normals(), a.rotation), norm(contact.force), a.scale * patch.lever(),
-            law.stiffness_per_area()};
+    return {patch.normals(a.rotation), norm(contact.force), a.scale * patch.lever(), law.stiffness_per_area()};
   }
 
  private:
@@ -201,11 +201,7 @@ struct VolumeIntegralsOf {
 
   /// The force on a points along b's normals and against a's. The whole side counts as one contact.
   TALUS_HD void add_patch_side(bool is_of_b, Real area_of_side, const Vec3& vector_area) {
-    PatchSide& side = is_of_b ? patch.side_b : patch.side_a;
-    const Vec3 direction = is_of_b ? vector_area : -vector_area;
-    side.pointed += direction;
-    side.total += direction;
-    side.weight += area_of_side;
+    (is_of_b ? patch.side_b : patch.side_a).add(area_of_side, is_of_b ? vector_area : -vector_area);
   }
   /// From moments about an apex.
   TALUS_HD void add_patch_moments(const Vec3& apex, Real area_of_patch, const Vec3& first, Real second) {
