@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -60,7 +61,12 @@ double number(const std::string& name, const std::string& value) {
   return found;
 }
 
-int count(const std::string& name, const std::string& value) { return static_cast<int>(number(name, value)); }
+int count(const std::string& name, const std::string& value) {
+  const double found = number(name, value);
+  if (found != std::floor(found) || found > std::numeric_limits<int>::max())
+    throw std::invalid_argument(name + " takes a whole number, not '" + value + "'");
+  return static_cast<int>(found);
+}
 
 benchmark_scenes::Law law(const std::string& value) {
   if (value == "volume") return benchmark_scenes::Law::overlap_volume;
