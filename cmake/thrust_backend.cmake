@@ -14,6 +14,10 @@ if(TALUS_BACKEND STREQUAL "CUDA")
   enable_language(CUDA)
   find_package(CUDAToolkit REQUIRED)
   target_link_libraries(dem_thrust INTERFACE CUDA::cudart_static)
+  # nvcc finds its own headers; what the host's compiler takes must be the same ones, not Debian's.
+  find_path(TALUS_THRUST_INCLUDE thrust/version.h HINTS ${CUDAToolkit_INCLUDE_DIRS} PATH_SUFFIXES cccl
+    NO_DEFAULT_PATH NO_CACHE REQUIRED)
+  target_include_directories(dem_thrust SYSTEM INTERFACE $<$<COMPILE_LANGUAGE:CXX>:${TALUS_THRUST_INCLUDE}>)
 else()
   find_path(TALUS_THRUST_INCLUDE thrust/version.h
     HINTS $ENV{CUDA_HOME}/include/cccl /usr/local/cuda/include/cccl PATHS /usr/include NO_CACHE REQUIRED)

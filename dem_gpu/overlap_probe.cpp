@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "catalog/input_error.h"
-#include "dem_gpu/contacts/polyhedron_geometry.h"
+#include "dem_gpu/contacts/body_overlap.h"
 
 namespace dem_gpu {
 

@@ -55,10 +55,11 @@ struct Simulation::Engine {
     for (std::size_t c = 0; c < truncated.size(); ++c)
       if (truncated[c]) {
         const ContactKey key = state.contacts.key[c];
-        throw std::runtime_error(
-            "step " + std::to_string(state.step) + ": the overlap of body " + std::to_string(key_body_a(key)) +
-            " with " + std::to_string(GhostOwners(model, state).owner(key_body_b(key))) +
-            " has a face of more corners, or of more depths, than the engine holds; use a level with fewer vertices");
+        throw std::runtime_error("by step " + std::to_string(state.step) + ": the overlap of body " +
+                                 std::to_string(key_body_a(key)) + " with " +
+                                 std::to_string(GhostOwners(model, state).owner(key_body_b(key))) +
+                                 " has a face of more corners, or of more depths, than the engine holds; use stiffer "
+                                 "contacts, or a level with fewer vertices or parts");
       }
   }
 };

@@ -15,6 +15,8 @@
 namespace workflows {
 
 void write_whole(const std::filesystem::path& file, const std::string& text) {
+  if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file) && !std::filesystem::is_directory(file))
+    throw std::runtime_error(file.string() + ": cannot be replaced: it is a device or a pipe; name a file");
   const std::filesystem::path beside = file.string() + ".part";
   const auto fail = [&](const char* action) {
     throw std::runtime_error(beside.string() + ": cannot " + action + ": " + std::strerror(errno));

@@ -90,6 +90,10 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
   if (!options.is_list && options.bench.empty())
     throw catalog::UsageError("no NAME; talus bench --list names the benches");
   if (!options.is_list) refuse_options_of_others(app, options.bench);
+  if (app.count("--case") > 0 && options.only_case.empty())
+    throw catalog::UsageError("--case is empty; leave it out for all cases, talus bench --list names them");
+  if (app.count("--json") > 0 && (!options.json.has_filename() || fs::is_directory(options.json)))
+    throw catalog::UsageError("--json \"" + options.json.string() + "\" is a folder, expected a file; --out takes one");
   if (!options.json.empty() && options.out.empty()) options.out = fs::absolute(options.json).parent_path();
   if (options.json.empty() && !options.out.empty()) options.json = options.out / (options.bench + ".json");
   if (options.resumes && options.json.empty())

@@ -35,7 +35,7 @@ case "${1:-}" in
 esac
 [[ $# -le 1 ]] || { echo "install_dependencies: usage: at most one option" >&2; exit 2; }
 
-command -v dpkg-query > /dev/null || fail "needs Debian 12 or one of its kin (no dpkg-query here); see README for the libraries to install by hand"
+command -v dpkg-query > /dev/null || fail "needs Debian 12 or one of its kin (no dpkg-query here); the lists in this script name the packages to install by hand"
 
 missing=()
 for package in "${packages[@]}"; do

@@ -75,9 +75,9 @@ std::variant<SimulateOptions, ExitStatus> parse_options(int argc, char** argv) {
   if (!end_time.empty()) {
     options.end_time = parse_quantity(end_time, Dimension::time);
     if (!options.end_time || !(*options.end_time > 0))
-      throw catalog::UsageError(
-          "--end-time \"" + end_time +
-          "\" is not a time; expected text such as \"2 s\" (units: " + accepted_units(Dimension::time) + ")");
+      throw catalog::UsageError("--end-time \"" + end_time + "\" is " +
+                                (options.end_time ? "not above 0" : "not a time") +
+                                "; expected text such as \"2 s\" (units: " + accepted_units(Dimension::time) + ")");
   }
   for (int i = 0; i < argc; ++i) options.command += (i ? " " : "") + std::string(argv[i]);
   return options;

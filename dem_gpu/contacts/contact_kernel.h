@@ -9,6 +9,7 @@
 
 #include "dem_gpu/bodies/model_state.h"
 #include "dem_gpu/contacts/contact_response.h"
+#include "dem_gpu/contacts/contact_scene.h"
 #include "dem_gpu/contacts/friction/no_friction.h"
 #include "dem_gpu/contacts/friction/patch_friction.h"
 #include "dem_gpu/contacts/friction/tangential_spring.h"
@@ -17,26 +18,6 @@
 #include "dem_gpu/periodic/ghosts.h"
 
 namespace dem_gpu {
-
-/// Everything a contact kernel reads, and the contact table it writes.
-struct ContactScene {
-  ContactView contacts;
-  BodyView bodies;
-  ShapeView shapes;
-  MeshView meshes;
-  const WallRecord* walls;
-  const int* welds;
-  const PairProperties* pairs;
-  int material_count;
-  Step step;  // that ends now
-
-  TALUS_HD const PairProperties& pair(int material_a, int material_b) const {
-    return pairs[material_a * material_count + material_b];
-  }
-  TALUS_HD Pose pose(int body) const {
-    return {rotation_matrix(bodies.orientation[body]), bodies.position[body], bodies.scale[body]};
-  }
-};
 
 inline ContactScene contact_scene(const Model& model, State& state) {
   return {view(state.contacts),
@@ -49,14 +30,6 @@ inline ContactScene contact_scene(const Model& model, State& state) {
           model.material_count,
           {model.time_step, state.step == 1}};
 }
-
-/// What stands on side b of a contact.
-struct BodyPartner {
-  static constexpr bool kIsWall = false;
-};
-struct WallPartner {
-  static constexpr bool kIsWall = true;
-};
 
 /// Not part of the kernel, so that the contact is the same with a record and without.
 template <class Geometry, class Patch>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "dem_gpu/contacts/contact_kernel.h"
+#include "dem_gpu/contacts/contact_scene.h"
 #include "dem_gpu/core/row_columns.h"
 
 namespace dem_gpu {

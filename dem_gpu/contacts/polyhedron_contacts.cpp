@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "dem_gpu/contacts/contact_kernel.h"
 #include "dem_gpu/contacts/contact_lanes.h"
 #include "dem_gpu/contacts/contact_passes.h"
 #include "dem_gpu/contacts/polyhedron_geometry.h"

@@ -48,6 +48,9 @@ decltype(auto) with_policy_for(std::size_t items, const Call& call) {
 }
 
 #if defined(TALUS_BACKEND_CUDA)
+#if !defined(__CUDACC__)
+#error "core/parallel.h launches kernels: with the CUDA back end what includes it is compiled by nvcc (LANGUAGE CUDA)"
+#endif
 
 /// Threads of a block: a warp for each of a multiprocessor's four schedulers. More would put a small scene, whose
 /// kernels are bound by latency, on fewer multiprocessors; any kernel has registers enough.

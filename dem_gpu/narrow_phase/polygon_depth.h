@@ -193,25 +193,30 @@ TALUS_HD TALUS_DEVICE_CALL void add_depth(const Polygon& polygon, FieldOnPolygon
   for (int t = 0; t < here.term_count; ++t) choice[t] = 0;
   while (true) {
     ShrinkingPolygon shrinking{polygon};
-    int level = 0;
-    for (; level < here.term_count; ++level) {
-      const LocalHalfSpace* planes = here.term_plane.data() + here.term[level].first;
-      const int chosen = choice[level];
-      for (int k = 0; k < here.term[level].count && !shrinking.is_empty; ++k)
-        if (k != chosen && !shrinking.keep(lower_side(planes[k], planes[chosen]), chosen < k)) {
-          sum.is_truncated = true;
-          return;
+    HalvesToCut halves;
+    std::uint64_t next_cut = 0;  // (level << 32) | plane of its term
+    int reached = -1;            // the deepest level that a piece of this choice came to
+    do {
+      int level = static_cast<int>(next_cut >> 32), k = static_cast<int>(next_cut & 0xffffffff);
+      for (; level < here.term_count; ++level, k = 0) {
+        const LocalHalfSpace* planes = here.term_plane.data() + here.term[level].first;
+        const int chosen = choice[level];
+        while (k < here.term[level].count && !shrinking.is_empty && !shrinking.piece.is_truncated) {
+          if (k == chosen || shrinking.keep(lower_side(planes[k], planes[chosen]), chosen < k))
+            ++k;
+          else
+            halves.split(shrinking, static_cast<std::uint64_t>(level) << 32 | static_cast<std::uint64_t>(k));
         }
-      if (shrinking.is_empty) break;
-      here.plane[here.plane_count + level] = planes[chosen];
-    }
-    if (!shrinking.is_empty) {
+        if (shrinking.is_empty) break;
+        here.plane[here.plane_count + level] = planes[chosen];
+      }
+      reached = std::max(reached, std::min(level, here.term_count - 1));
+      if (shrinking.is_empty) continue;
       if (shrinking.piece.is_truncated) sum.is_truncated = true;
       add_least_depth(shrinking.piece, here.plane.data(), here.plane_count + here.term_count, normal, sum);
-      level = here.term_count - 1;
-    }
-    while (level >= 0 && ++choice[level] == here.term[level].count) choice[level--] = 0;
-    if (level < 0) return;
+    } while (halves.next(shrinking, next_cut));
+    while (reached >= 0 && ++choice[reached] == here.term[reached].count) choice[reached--] = 0;
+    if (reached < 0) return;
   }
 }
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "dem_gpu/contacts/polyhedron_geometry.h"
+#include "dem_gpu/contacts/body_overlap.h"
 #include "tests/support/dem_scenes.h"
 #include "tests/support/precision.h"
 

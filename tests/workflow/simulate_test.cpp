@@ -244,6 +244,10 @@ TEST_F(Simulate, EndTimesOutOfReachAreRefused) {
     EXPECT_EQ(run({scene_.string(), "--end-time", time}), 3) << time;
     EXPECT_NE(error_.find("run.end_time"), std::string::npos) << error_;
   }
+  for (const char* time : {"0 s", "-1 s"}) {
+    EXPECT_EQ(run({scene_.string(), "--end-time", time}), 2) << time;
+    EXPECT_NE(error_.find("is not above 0"), std::string::npos) << error_;
+  }
   EXPECT_FALSE(fs::exists(runs_));
   ASSERT_EQ(run({scene_.string()}), 0) << error_;
   const std::string resolved = read_bytes(run_ / "resolved_scene.json");

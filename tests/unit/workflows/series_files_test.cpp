@@ -2,6 +2,7 @@
 #include "workflows/series_files.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <sstream>
 
@@ -33,6 +34,13 @@ TEST_F(SeriesFiles, KeepsRowsUpToTheCheckpoint) {
 TEST_F(SeriesFiles, KeepsARowWhoseTimeWasRoundedUp) {
   write_whole(file_, "time[s],x\n0.666666666667,a\n0.67,b\n");
   EXPECT_EQ(goes_on(2.0 / 3), "time[s],x\n0.666666666667,a\n9,9\n");
+}
+
+TEST_F(SeriesFiles, APipeOrADeviceIsNotReplaced) {
+  std::filesystem::remove(file_);
+  ASSERT_EQ(::mkfifo(file_.c_str(), 0600), 0);
+  EXPECT_THROW(write_whole(file_, "text"), std::runtime_error);
+  EXPECT_TRUE(std::filesystem::is_fifo(file_));
 }
 
 TEST_F(SeriesFiles, DropsARowCutShort) {

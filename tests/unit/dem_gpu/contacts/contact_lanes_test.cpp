@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "dem_gpu/contacts/friction/no_friction.h"
+#include "dem_gpu/contacts/friction/patch_friction.h"
 #include "dem_gpu/narrow_phase/patch_sums.h"
 #include "tests/support/dem_scenes.h"
 

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -55,6 +56,20 @@ TEST(BenchProgram, AnUnknownCaseIsAUsageErrorWithASuggestion) {
   const Ended ended = run_bench(folder, "contact --case cube-fase");
   EXPECT_EQ(ended.status, 2);
   EXPECT_NE(ended.error.find("did you mean 'cube-face'"), std::string::npos) << ended.error;
+}
+
+TEST(BenchProgram, AnEmptyCaseAndAFolderForFiguresAreRefusedBeforeAnythingIsMeasured) {
+  const TemporaryFolder folder;
+  const Ended ended = run_bench(folder, "contact --case ''");
+  EXPECT_EQ(ended.status, 2);
+  EXPECT_NE(ended.error.find("--case is empty"), std::string::npos) << ended.error;
+  const std::string here = folder.path().string();
+  for (const std::string& json : {here, here + "/made/"}) {
+    const Ended named = run_bench(folder, "overlap --case cost-touching --json '" + json + "'");
+    EXPECT_EQ(named.status, 2);
+    EXPECT_NE(named.error.find("is a folder, expected a file"), std::string::npos) << named.error;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "made"));
 }
 
 TEST(BenchProgram, OptionsOfOtherBenchesAndBrokenNumbersAreRefused) {
