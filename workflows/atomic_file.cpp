@@ -15,7 +15,8 @@
 namespace workflows {
 
 void write_whole(const std::filesystem::path& file, const std::string& text) {
-  if (std::filesystem::exists(file) && !std::filesystem::is_regular_file(file) && !std::filesystem::is_directory(file))
+  std::error_code unknown;  // what cannot be looked at fails below, with its reason
+  if (std::filesystem::is_other(file, unknown))
     throw std::runtime_error(file.string() + ": cannot be replaced: it is a device or a pipe; name a file");
   const std::filesystem::path beside = file.string() + ".part";
   const auto fail = [&](const char* action) {
