@@ -46,8 +46,6 @@ struct Options {
   std::optional<dem_gpu::StepBlocks> blocks;
 };
 
-constexpr int kResettlingSteps = 500;
-
 double number(const std::string& name, const std::string& value) {
   std::size_t end = 0;
   double found = 0;
@@ -201,7 +199,7 @@ void time_scene(const Options& options) {
   std::printf("%d bodies begin\n%s: time step %.4g s\n", simulation.bulk().active_bodies, options.scene.c_str(),
               simulation.time_step());
   if (options.is_settled)
-    simulation.advance(kResettlingSteps);
+    simulation.advance(benchmark_scenes::kResettlingSteps);
   else
     settle(simulation, options.settle < 0 ? chosen.settling_time : options.settle, options.keep);
   const auto steps =

@@ -15,4 +15,8 @@ struct Settled {
 /// steps in a contact, since all that is taken over is where they lie and how they move. `bodies` as in SceneOptions.
 Settled settle(const SpeedScene& speed_scene, int bodies = 0);
 
+/// Steps after which a settled scene, gone on with at its own stiffness, is measured: by then the harder bodies have
+/// parted from where the softer ones lay.
+inline constexpr int kResettlingSteps = 500;
+
 }  // namespace benchmark_scenes

@@ -9,10 +9,8 @@ namespace workflows {
 enum class Moment { busy, settled };
 
 /// The scene as it is at that moment. Each scene settles once in the life of the process
-/// (tests/benchmark/scenes/settling.h). Run it on for kResettlingSteps before it is measured.
+/// (tests/benchmark/scenes/settling.h). Run it on for benchmark_scenes::kResettlingSteps before it is measured.
 dem_gpu::Scene scene_at(const benchmark_scenes::SpeedScene& speed_scene, Moment moment,
                         const benchmark_scenes::SceneOptions& options);
-
-inline constexpr int kResettlingSteps = 500;
 
 }  // namespace workflows

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/benchmark/scenes/settling.h"
 #include "workflows/bench/speed/settled_scene.h"
 #include "workflows/bench/speed/step_time.h"
 #include "workflows/bench/speed/yardstick.h"
@@ -82,7 +83,7 @@ void add_state(Figures& figures, const Scene& scene, const Simulation& simulatio
 void add_energy(Figures& figures, const SpeedScene& speed_scene, SceneOptions options) {
   options.has_ledger = true;
   Simulation simulation(scene_at(speed_scene, Moment::busy, options));
-  on_all_threads([&] { simulation.advance(kResettlingSteps + kLedgerSteps); });
+  on_all_threads([&] { simulation.advance(benchmark_scenes::kResettlingSteps + kLedgerSteps); });
   const dem_gpu::EnergyLedger ledger = simulation.ledger();
   // The published volume law is not the gradient of an energy: it promises nothing.
   std::optional<Goal> goal;
@@ -105,7 +106,7 @@ CaseResult measure_speed(const std::string& scene_name, Law law, const SpeedGoal
   Figures figures(result);
   const std::size_t before = allocated_bytes();
   Simulation simulation(scene);
-  on_all_threads([&] { simulation.advance(kResettlingSteps); });
+  on_all_threads([&] { simulation.advance(benchmark_scenes::kResettlingSteps); });
   const std::optional<double> liggghts = liggghts_step_time();
   const StepTimes times = time_steps(simulation, benchmark_scenes::kWindows, kWindowSteps);
   const std::size_t allocated = allocated_bytes() - before;
@@ -118,7 +119,7 @@ CaseResult measure_speed(const std::string& scene_name, Law law, const SpeedGoal
     figures.add(kRatio, times.median / *liggghts, "-", at_most(goal.step_time / kReferenceStepTime));
   }
   figures.add(kParticleSteps, 1e3 * simulation.bulk().active_bodies / times.median, "1/s");
-  add_state(figures, scene, simulation, kResettlingSteps + benchmark_scenes::kWindows * kWindowSteps);
+  add_state(figures, scene, simulation, benchmark_scenes::kResettlingSteps + benchmark_scenes::kWindows * kWindowSteps);
   figures.add(kAllocated, static_cast<double>(allocated) / 1e6, "MB");
   if (has_two_threads())
     figures.add(kSpeedUp, two_thread_speed_up(simulation, benchmark_scenes::kWindows, kThreadWindowSteps), "-",
