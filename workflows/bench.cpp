@@ -18,6 +18,7 @@
 #include "workflows/bench/log_plot.h"
 #include "workflows/command_options.h"
 #include "workflows/stage_tool.h"
+#include "workflows/thread_count.h"
 
 namespace {
 
@@ -74,7 +75,7 @@ std::variant<Options, ExitStatus> parse_options(int argc, char** argv) {
   app.add_option("--case", options.only_case, "this case alone");
   app.add_option("--json", options.json, "file for the figures, one JSON object a line");
   app.add_option("--out", options.out, "folder for table, plots and, without --json, the figures");
-  add_number_list(app, "--threads", options.threads, {1, 1000000},
+  add_number_list(app, "--threads", options.threads, {1, kMostThreads},
                   "thread counts to compare, such as 1,2; default: the engine's own choice");
   app.add_option("--catalog", options.catalogue, "shape catalogue, for the benches levels and parts");
   app.add_option("--scans", options.scans, "folder of scans, for the benches decomposition, digitize and micrographs");
@@ -235,6 +236,7 @@ void write_files(const Bench& bench, const BenchPlan& plan, const Measured& meas
 int run_bench(const Options& options) {
   const Bench& bench = bench_named(options.bench);
   const BenchPlan plan = bench.plan(bench_options(options));
+  if (!plan.lacks.empty()) throw catalog::UsageError("bench " + options.bench + ": " + plan.lacks);
   const std::vector<BenchCase> cases = chosen_cases(plan, options);
   make_folders(options);
   const Measured measured = measure(cases, options);

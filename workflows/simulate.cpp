@@ -57,7 +57,8 @@ std::variant<SimulateOptions, ExitStatus> parse_options(int argc, char** argv) {
       app.add_option("--resume", resumed, "run folder to go on with; default: the scene's own")->expected(0, 1);
   app.add_option("--end-time", end_time, "simulated time to stop at, such as \"2 s\"; instead of the scene's");
   app.add_flag("--dry-run", options.dry_run, "say what would be run; write nothing");
-  app.add_option("--threads", options.threads, "threads of the engine; default: all")->check(CLI::Range(1, 1000000));
+  app.add_option("--threads", options.threads, "threads of the engine; default: all")
+      ->check(CLI::Range(1, kMostThreads));
   app.add_flag("--json", options.json, "print run.json (with --dry-run the resolved scene) on stdout");
   app.set_version_flag("--version", tool_version());
   try {

@@ -3,6 +3,9 @@
 
 namespace workflows {
 
+/// What --threads takes at most. Far more than machines have; OpenMP ends the process where it gets no more threads.
+inline constexpr int kMostThreads = 1024;
+
 /// Bounds the threads of the engine for the rest of the process; results do not depend on it.
 /// Throws catalog::UsageError if this build's back end has no such choice.
 void set_thread_count(int threads);

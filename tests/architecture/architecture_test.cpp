@@ -18,6 +18,14 @@ TEST(Architecture, SourcesKeepToTheArrows) {
   for (const std::string& violation : violations(tree)) ADD_FAILURE() << violation;
 }
 
+// Those that tests/backend/CMakeLists.txt names LANGUAGE CUDA. Others take what they need from headers without kernels.
+TEST(Architecture, OnlyTestsOfLaunchesLaunchKernels) {
+  SourceTree tree = read_modules(TALUS_SOURCE_DIR);
+  tree.merge(read_tests(TALUS_SOURCE_DIR));
+  ASSERT_TRUE(tree.contains("dem_gpu/core/parallel.h"));
+  EXPECT_EQ(kernel_launchers(tree), std::vector<std::string>{"tests/backend/parallel_test.cpp"});
+}
+
 /// A small tree that keeps the rules, with the headers that the cases below include.
 SourceTree sound_tree() {
   return {
@@ -134,6 +142,15 @@ TEST(ArchitectureRules, PublicHeadersPullInNoLibraryThroughAnother) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].starts_with("dem_gpu/simulation.h:1: ")) << found[0];
   EXPECT_NE(found[0].find("Thrust"), std::string::npos);
+}
+
+TEST(ArchitectureRules, AKernelIsSeenThroughHeaders) {
+  SourceTree tree = sound_tree();
+  tree["dem_gpu/contacts/kernel.h"] = "#include \"dem_gpu/core/parallel.h\"\n";
+  tree["dem_gpu/contacts/pairs.cpp"] = "#include \"dem_gpu/contacts/kernel.h\"\n";
+  EXPECT_EQ(kernel_launchers(tree), std::vector<std::string>{});
+  tree["tests/unit/pairs_test.cpp"] = "#include \"dem_gpu/contacts/kernel.h\"\n";
+  EXPECT_EQ(kernel_launchers(tree), std::vector<std::string>{"tests/unit/pairs_test.cpp"});
 }
 
 TEST(IncludeReader, LeavesCommentsOutAndCountsLines) {

@@ -144,19 +144,27 @@ void follow(const SourceTree& tree, const std::string& file, Names& seen, Names&
   }
 }
 
+void read_folder(const fs::path& root, const fs::path& folder, SourceTree& tree) {
+  static const Names extensions{".h", ".hpp", ".cuh", ".cpp", ".cc", ".cu"};
+  for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+    if (!entry.is_regular_file() || !extensions.contains(entry.path().extension().string())) continue;
+    std::ifstream file(entry.path(), std::ios::binary);
+    tree[fs::relative(entry.path(), root).generic_string()] = {std::istreambuf_iterator<char>(file), {}};
+  }
+}
+
 }  // namespace
 
 SourceTree read_modules(const fs::path& root) {
-  const Names extensions{".h", ".hpp", ".cuh", ".cpp", ".cc", ".cu"};
   SourceTree tree;
-  for (const std::string& module : kModules) {
-    const fs::path folder = module == "benchmark_scenes" ? fs::path(kSceneFolder) : fs::path(module);
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (!entry.is_regular_file() || !extensions.contains(entry.path().extension().string())) continue;
-      std::ifstream file(entry.path(), std::ios::binary);
-      tree[fs::relative(entry.path(), root).generic_string()] = {std::istreambuf_iterator<char>(file), {}};
-    }
-  }
+  for (const std::string& module : kModules)
+    read_folder(root, module == "benchmark_scenes" ? fs::path(kSceneFolder) : fs::path(module), tree);
+  return tree;
+}
+
+SourceTree read_tests(const fs::path& root) {
+  SourceTree tree;
+  read_folder(root, "tests", tree);
   return tree;
 }
 
@@ -197,6 +205,17 @@ std::vector<std::string> violations(const SourceTree& tree) {
     follow(tree, file, seen, libraries);
     for (const std::string& library : libraries)
       list.push_back(file + ":1: a public header must not pull in " + library + ", not even through another header");
+  }
+  return list;
+}
+
+std::vector<std::string> kernel_launchers(const SourceTree& tree) {
+  std::vector<std::string> list;
+  for (const auto& [file, text] : tree) {
+    if (is_header(file) || module_of(file) == "dem_gpu") continue;
+    Names seen, libraries;
+    follow(tree, file, seen, libraries);
+    if (seen.contains("dem_gpu/core/parallel.h")) list.push_back(file);
   }
   return list;
 }

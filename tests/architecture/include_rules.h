@@ -14,6 +14,9 @@ using SourceTree = std::map<std::string, std::string>;
 /// Headers and sources of the module folders below `root`.
 SourceTree read_modules(const std::filesystem::path& root);
 
+/// The same of everything below `root`/tests.
+SourceTree read_tests(const std::filesystem::path& root);
+
 struct Include {
   int line = 0;
   std::string path;
@@ -24,5 +27,9 @@ std::vector<Include> includes_of(const std::string& text);
 
 /// One line each, "FILE:LINE: what is wrong", for includes that the arrows between modules do not allow.
 std::vector<std::string> violations(const SourceTree& tree);
+
+/// Sources outside the engine that launch kernels: they reach dem_gpu/core/parallel.h, through whatever headers. With
+/// the CUDA back end such a source must be compiled by nvcc, which only a build with nvcc and all tests would tell.
+std::vector<std::string> kernel_launchers(const SourceTree& tree);
 
 }  // namespace architecture

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Levels of detail of a catalogue's shapes: error against what a contact of such bodies costs the engine.
-#include "catalog/input_error.h"
 #include "workflows/bench/bench_registry.h"
 #include "workflows/bench/catalogue_levels.h"
 #include "workflows/bench/level_cost.h"
@@ -32,9 +31,8 @@ BenchPlan plan_levels_bench(const BenchOptions& options) {
   plan.plots = {{"front", "Error of a level against the cost of a contact", "time of a contact [contacts of cubes]",
                  "symmetric difference [-]"}};
   if (options.catalogue.empty()) {
-    plan.cases = {{"ladder", []() -> CaseResult {
-                     throw catalog::UsageError("bench levels: no catalogue; add --catalog ore.talus");
-                   }}};
+    plan.lacks = "no catalogue; add --catalog ore.talus";
+    plan.cases = {{"ladder", nullptr}};
     return plan;
   }
   for (const ShapeLevels& shape : levels_of_catalogue(options.catalogue))

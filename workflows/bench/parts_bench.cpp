@@ -5,7 +5,6 @@
 #include <iterator>
 #include <numbers>
 
-#include "catalog/input_error.h"
 #include "workflows/bench/bench_registry.h"
 #include "workflows/bench/catalogue_levels.h"
 #include "workflows/bench/level_cost.h"
@@ -149,9 +148,8 @@ BenchPlan plan_parts_bench(const BenchOptions& options) {
                 {"left", "Share of the rocks that stays on the shelf", error, "share [-]", true},
                 {"cost", "Cost of a step of 300 rocks", error, "time a step [ms]"}};
   if (options.catalogue.empty()) {
-    plan.cases = {{"levels", []() -> CaseResult {
-                     throw catalog::UsageError("bench parts: no catalogue; add --catalog ore.talus");
-                   }}};
+    plan.lacks = "no catalogue; add --catalog ore.talus";
+    plan.cases = {{"levels", nullptr}};
     return plan;
   }
   if (!options.threads.empty()) set_thread_count(options.threads.front());

@@ -94,6 +94,14 @@ TEST(BenchProgram, NoNameOrAWrongOptionIsAUsageErrorAndHelpIsNot) {
   EXPECT_EQ(run_bench(folder, "").status, 2);
   EXPECT_EQ(run_bench(folder, "overlap --threads none").status, 2);
   EXPECT_NE(run_bench(folder, "overlap --threads 1,,2").error.find("found '1,,2'"), std::string::npos);
+  EXPECT_EQ(run_bench(folder, "overlap --threads 1025").status, 2) << "OpenMP ends the process at a million";
+  for (const char* bench : {"levels", "parts"}) {
+    const auto without_catalogue = run_bench(folder, bench);
+    EXPECT_EQ(without_catalogue.status, 2) << bench;
+    EXPECT_NE(without_catalogue.error.find("no catalogue; add --catalog"), std::string::npos)
+        << without_catalogue.error;
+    EXPECT_EQ(without_catalogue.error.find("[1/1]"), std::string::npos) << "begins before it looks";
+  }
   EXPECT_EQ(run_bench(folder, "--help").status, 0);
 }
 
