@@ -16,6 +16,7 @@
 #include "workflows/digitize_batch.h"
 #endif
 #include "workflows/stage_tool.h"
+#include "workflows/thread_count.h"
 
 namespace {
 
@@ -86,7 +87,7 @@ void declare_options(CLI::App& app, CommandLine& line) {
   add_seed(app, "--seed", quality.seed, "of the random numbers; the same seed gives the same bytes");
   add_number(app, "--effort", line.effort, 1, {decomposition::kLeastEffort, decomposition::kMostEffort},
              "more looks for better cuts, time in proportion; not with --time-budget");
-  app.add_option("--threads", quality.threads, "0: as many as the machine has")->check(CLI::Range(0, 1024));
+  app.add_option("--threads", quality.threads, "0: as many as the machine has")->check(CLI::Range(0, kMostThreads));
   app.add_option("--select", line.batch.select, "only the shapes of this query, see talus catalog query --help");
   app.add_flag("--json", line.json, "one JSON object instead of a table; ratios, not per cent");
 }

@@ -16,6 +16,7 @@
 #include "workflows/population/stratified_rows.h"
 #include "workflows/stage_tool.h"
 #include "workflows/text_format.h"
+#include "workflows/thread_count.h"
 
 namespace workflows {
 namespace {
@@ -114,7 +115,8 @@ void declare_population(CLI::App& app, PopulationLine& line) {
   command->add_option("--select", line.select, "only these shapes of a catalogue as reference");
   command->add_option("--name", line.name, "of the shapes, before their number; else the reference's");
   command->add_option("--plot", line.plot, "SVG file of the cumulative distributions");
-  command->add_option("--threads", line.options.threads, "0: as many as the machine has")->check(CLI::Range(0, 1024));
+  command->add_option("--threads", line.options.threads, "0: as many as the machine has")
+      ->check(CLI::Range(0, kMostThreads));
   command->add_flag("--json", line.is_json, "one JSON object on stdout");
 }
 

@@ -3,7 +3,7 @@
 
 namespace workflows {
 
-/// What --threads takes at most. Far more than machines have; OpenMP ends the process where it gets no more threads.
+/// What --threads takes at most: OpenMP ends the process where the system gives it no more threads.
 inline constexpr int kMostThreads = 1024;
 
 /// Bounds the threads of the engine for the rest of the process; results do not depend on it.

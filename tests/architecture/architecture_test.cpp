@@ -18,12 +18,13 @@ TEST(Architecture, SourcesKeepToTheArrows) {
   for (const std::string& violation : violations(tree)) ADD_FAILURE() << violation;
 }
 
-// Those that tests/backend/CMakeLists.txt names LANGUAGE CUDA. Others take what they need from headers without kernels.
-TEST(Architecture, OnlyTestsOfLaunchesLaunchKernels) {
+// Which tests/backend/CMakeLists.txt gives to nvcc, beside a test that holds device columns. Others take what they need
+// from headers without kernels.
+TEST(Architecture, OnlyTheTestOfLaunchesSeesKernels) {
   SourceTree tree = read_modules(TALUS_SOURCE_DIR);
   tree.merge(read_tests(TALUS_SOURCE_DIR));
   ASSERT_TRUE(tree.contains("dem_gpu/core/parallel.h"));
-  EXPECT_EQ(kernel_launchers(tree), std::vector<std::string>{"tests/backend/parallel_test.cpp"});
+  EXPECT_EQ(sources_with_kernels(tree), std::vector<std::string>{"tests/backend/parallel_test.cpp"});
 }
 
 /// A small tree that keeps the rules, with the headers that the cases below include.
@@ -148,9 +149,9 @@ TEST(ArchitectureRules, AKernelIsSeenThroughHeaders) {
   SourceTree tree = sound_tree();
   tree["dem_gpu/contacts/kernel.h"] = "#include \"dem_gpu/core/parallel.h\"\n";
   tree["dem_gpu/contacts/pairs.cpp"] = "#include \"dem_gpu/contacts/kernel.h\"\n";
-  EXPECT_EQ(kernel_launchers(tree), std::vector<std::string>{});
+  EXPECT_EQ(sources_with_kernels(tree), std::vector<std::string>{});
   tree["tests/unit/pairs_test.cpp"] = "#include \"dem_gpu/contacts/kernel.h\"\n";
-  EXPECT_EQ(kernel_launchers(tree), std::vector<std::string>{"tests/unit/pairs_test.cpp"});
+  EXPECT_EQ(sources_with_kernels(tree), std::vector<std::string>{"tests/unit/pairs_test.cpp"});
 }
 
 TEST(IncludeReader, LeavesCommentsOutAndCountsLines) {

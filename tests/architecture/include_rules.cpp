@@ -133,7 +133,8 @@ std::string library_fault(const std::string& file, const std::string& include) {
   return "";
 }
 
-/// Libraries but Eigen that a public header pulls in through other headers of its own module.
+/// Our files that a file reaches through its quoted includes, itself among them, and the libraries but Eigen that they
+/// include.
 void follow(const SourceTree& tree, const std::string& file, Names& seen, Names& libraries) {
   if (!tree.contains(file) || !seen.insert(file).second) return;
   for (const Include& include : includes_of(tree.at(file))) {
@@ -209,7 +210,7 @@ std::vector<std::string> violations(const SourceTree& tree) {
   return list;
 }
 
-std::vector<std::string> kernel_launchers(const SourceTree& tree) {
+std::vector<std::string> sources_with_kernels(const SourceTree& tree) {
   std::vector<std::string> list;
   for (const auto& [file, text] : tree) {
     if (is_header(file) || module_of(file) == "dem_gpu") continue;

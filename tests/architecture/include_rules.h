@@ -28,8 +28,9 @@ std::vector<Include> includes_of(const std::string& text);
 /// One line each, "FILE:LINE: what is wrong", for includes that the arrows between modules do not allow.
 std::vector<std::string> violations(const SourceTree& tree);
 
-/// Sources outside the engine that launch kernels: they reach dem_gpu/core/parallel.h, through whatever headers. With
-/// the CUDA back end such a source must be compiled by nvcc, which only a build with nvcc and all tests would tell.
-std::vector<std::string> kernel_launchers(const SourceTree& tree);
+/// Sources outside the engine that reach dem_gpu/core/parallel.h, through whatever headers, and so can launch kernels.
+/// With the CUDA back end such a source must be compiled by nvcc, which only a build with nvcc and all tests would
+/// tell.
+std::vector<std::string> sources_with_kernels(const SourceTree& tree);
 
 }  // namespace architecture

@@ -75,8 +75,8 @@ struct BenchPlan {
   std::vector<PlotAxes> plots;
   /// Markdown of what was measured; empty: a table of all figures.
   std::function<std::string(const std::vector<ReportedFigure>&)> page{};
-  /// What options leave out that the bench cannot do without, to show to the user; empty: nothing. Its cases are then
-  /// those that can be named without it.
+  /// What options leave out that the bench cannot do without, to show to the user; empty: nothing. Its cases then stand
+  /// for those it would have, and must not be measured.
   std::string lacks{};
 };
 
